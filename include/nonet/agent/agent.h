@@ -1,0 +1,42 @@
+// The agent is a function of its percept stream: no I/O, no clock, random numbers only from its seed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "nonet/agent/parameters.h"
+#include "nonet/protocol/effectors.h"
+#include "nonet/protocol/percept.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::agent {
+
+struct AgentConfig {
+  int unum = 0;  // 1..11, 0: the server chooses
+  std::string team = "Nonet";
+  int robotType = 0;  // 0..4
+  std::uint64_t seed = 1;
+  AgentParameters parameters;
+  std::string skillFolder;  // folder of the *.skl files
+};
+
+class Agent {
+ public:
+  explicit Agent(const AgentConfig& config);
+  ~Agent();
+
+  /// One cycle. Allocates nothing in steady state. The reference stays valid until the next call. `syn` is
+  /// not set: that is the transport's business.
+  const protocol::Effectors& step(const protocol::Percept& percept);
+
+  /// What it believes, for measurements and drawings.
+  const world::WorldState& world() const;
+  const AgentConfig& config() const;
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace nonet::agent

@@ -1,0 +1,14 @@
+// The subcommands of `nonet`, one file each. Every add...Command() declares its options on a CLI11 subcommand
+// and stores the exit code in `exitCode` when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace nonet::app {
+
+void addPlayCommand(CLI::App& app, int& exitCode);
+void addServeCommand(CLI::App& app, int& exitCode);
+void addMatchCommand(CLI::App& app, int& exitCode);
+void addReplayCommand(CLI::App& app, int& exitCode);
+
+}  // namespace nonet::app

@@ -1,0 +1,162 @@
+// Declared parameters. A group of parameters is a struct with one static member template that names every
+// field once: key, field, unit, default (the field's initialiser), range and a sentence. Files in params/
+// overlay them (default <- robot type <- parameter set); the optimizer moves those that declare a search
+// range.
+//
+//   struct WalkParameters {
+//     double stepHeight = 0.03;
+//     template <class Self, class Visitor>
+//     static void describe(Self& self, Visitor&& visit) {
+//       visit({"stepHeight", Unit::Metre, {0.0, 0.2}, search(0.01, 0.1), "Lift of the swing foot"},
+//       self.stepHeight);
+//     }
+//   };
+//
+// Groups nest: `visit.group("walk", self.walk);` gives keys like "walk.stepHeight" (a TOML table).
+// Fields are double, int or bool. Values in files are SI numbers or texts with a unit: "17deg", "97mm",
+// "20ms".
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nonet::config {
+
+enum class Unit : std::uint8_t {
+  None,
+  Metre,
+  Radian,
+  Second,
+  MetrePerSecond,
+  RadianPerSecond,
+  MetrePerSecondSquared,
+  Newton,
+  Kilogram,
+  Hertz,
+};
+/// "m", "rad", "s", ...; "" for None.
+std::string_view unitName(Unit unit);
+
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+};
+inline std::optional<Range> search(double low, double high) {
+  return Range{low, high};
+}
+inline constexpr std::optional<Range> fixed = std::nullopt;
+
+struct Declaration {
+  std::string_view key;
+  Unit unit = Unit::None;
+  Range range;                       // outside it the code would break
+  std::optional<Range> searchRange;  // where the optimizer starts; absent: it never moves this value
+  std::string_view text;
+};
+
+/// A value of a parameter struct, found by its full key ("walk.stepHeight").
+struct ParameterView {
+  std::string key;
+  Declaration declaration;
+  enum class Kind : std::uint8_t { Real, Integer, Boolean } kind = Kind::Real;
+  double value = 0.0;
+};
+
+/// Names file and line, and what to do.
+class ParameterError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+namespace detail {
+
+// Type-erased access to one field, so that the file reader needs no template.
+struct Field {
+  std::string key;
+  Declaration declaration;
+  double* real = nullptr;
+  int* integer = nullptr;
+  bool* boolean = nullptr;
+};
+
+class Collector {
+ public:
+  void operator()(const Declaration& declaration, double& field) { add(declaration).real = &field; }
+  void operator()(const Declaration& declaration, int& field) { add(declaration).integer = &field; }
+  void operator()(const Declaration& declaration, bool& field) { add(declaration).boolean = &field; }
+  template <class Group>
+  void group(std::string_view name, Group& group) {
+    const std::string outer = prefix_;
+    prefix_ += std::string(name) + ".";
+    Group::describe(group, *this);
+    prefix_ = outer;
+  }
+  std::vector<Field> fields;
+
+ private:
+  Field& add(const Declaration& declaration) {
+    fields.push_back({prefix_ + std::string(declaration.key), declaration});
+    return fields.back();
+  }
+  std::string prefix_;
+};
+
+std::vector<ParameterView> views(const std::vector<Field>& fields);
+void overlayFile(const std::vector<Field>& fields, const std::string& path);
+void overlayText(const std::vector<Field>& fields, std::string_view toml, const std::string& nameForErrors);
+void set(const std::vector<Field>& fields, std::string_view key, double value);
+std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* unlessEqualTo);
+
+}  // namespace detail
+
+template <class Parameters>
+std::vector<detail::Field> fieldsOf(Parameters& parameters) {
+  detail::Collector collector;
+  Parameters::describe(parameters, collector);
+  return std::move(collector.fields);
+}
+
+/// All parameters with their present values, for listings and for the optimizer.
+template <class Parameters>
+std::vector<ParameterView> listParameters(Parameters parameters) {
+  return detail::views(fieldsOf(parameters));
+}
+
+/// Overlays a TOML file. Unknown key, value out of range, wrong unit or type: ParameterError naming file and
+/// line, and `parameters` is left unchanged. A [provenance] table is allowed and ignored here.
+template <class Parameters>
+void overlayFile(Parameters& parameters, const std::string& path) {
+  Parameters copy = parameters;
+  detail::overlayFile(fieldsOf(copy), path);
+  parameters = copy;
+}
+template <class Parameters>
+void overlayText(Parameters& parameters, std::string_view toml, const std::string& nameForErrors) {
+  Parameters copy = parameters;
+  detail::overlayText(fieldsOf(copy), toml, nameForErrors);
+  parameters = copy;
+}
+
+/// Sets one value by its full key (range checked).
+template <class Parameters>
+void setParameter(Parameters& parameters, std::string_view key, double value) {
+  detail::set(fieldsOf(parameters), key, value);
+}
+
+/// TOML of all values, or only of those that differ from `base`, with the sentence of each as a comment.
+template <class Parameters>
+std::string toToml(Parameters parameters) {
+  return detail::toToml(fieldsOf(parameters), nullptr);
+}
+template <class Parameters>
+std::string toTomlDifference(Parameters parameters, Parameters base) {
+  const auto baseFields = fieldsOf(base);
+  return detail::toToml(fieldsOf(parameters), &baseFields);
+}
+
+}  // namespace nonet::config

@@ -1,0 +1,36 @@
+// The motion stage: WorldState and requests -> JointTargets. Chooses among standing, walking, skills, kicks,
+// falling and rising, and moves between them without a jump.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "nonet/model/robot_model.h"
+#include "nonet/motion/parameters.h"
+#include "nonet/motion/request.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::motion {
+
+struct MotionState {
+  bool rising = false;         // getting up
+  bool busy = false;           // a skill or kick runs that must not be interrupted
+  bool skillFinished = false;  // the requested skill ended in this cycle
+};
+
+class Motion {
+ public:
+  /// `skillFolder` holds the *.skl files; errors name file, line and column.
+  Motion(const model::RobotModel& model, const MotionParameters& parameters, const std::string& skillFolder);
+  ~Motion();
+
+  const JointTargets& update(const world::WorldState& world, const MotionRequest& request,
+                             const HeadRequest& head);
+  const MotionState& state() const;
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace nonet::motion

@@ -1,0 +1,32 @@
+// Declared parameters of the motion stage.
+#pragma once
+
+#include "nonet/config/parameters.h"
+
+namespace nonet::motion {
+
+struct ControlParameters {
+  double proportional = 1.0;
+  double integral = 0.0;
+  double derivative = 0.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"proportional", Unit::None, {0.0, 2.0}, fixed, "Share of the predicted error closed in one cycle"},
+          self.proportional);
+    visit({"integral", Unit::None, {0.0, 2.0}, fixed, "Gain on the summed error"}, self.integral);
+    visit({"derivative", Unit::None, {-1.0, 1.0}, fixed, "Gain on the change of the error"}, self.derivative);
+  }
+};
+
+struct MotionParameters {
+  ControlParameters control;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit.group("control", self.control);
+  }
+};
+
+}  // namespace nonet::motion

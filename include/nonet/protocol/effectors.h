@@ -1,0 +1,51 @@
+// Everything an agent can send in one cycle, typed, with its text form (server facts 1.8).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "nonet/math/inline_string.h"
+#include "nonet/math/pose2.h"
+#include "nonet/model/joints.h"
+#include "nonet/protocol/percept.h"
+
+namespace nonet::protocol {
+
+struct Effectors {
+  struct Scene {
+    int robotType = 0;
+    InlineString<96> file;  // empty: the Nao description that belongs to robotType
+  };
+  struct Init {
+    int unum = 0;
+    TeamName team;
+  };
+
+  std::optional<Scene> scene;
+  std::optional<Init> init;
+  std::optional<Pose2> beam;   // own field frame, m and rad
+  model::JointArray speeds{};  // rad/s; valid where the bit in speedsPresent is set
+  std::uint32_t speedsPresent = 0;
+  std::optional<InlineString<64>> say;  // sent by us: at most 20 allowed characters
+  bool pass = false;
+  bool syn = false;
+
+  void clear() { *this = Effectors{}; }
+  void setSpeed(model::JointId joint, double radPerSecond) {
+    speeds[model::index(joint)] = radPerSecond;
+    speedsPresent |= 1U << model::index(joint);
+  }
+  bool hasSpeed(model::JointId joint) const { return (speedsPresent >> model::index(joint)) & 1U; }
+};
+
+/// Writes the message: numbers in the shortest form that reads back the same after rounding to 6 significant
+/// digits.
+void writeEffectors(const Effectors& effectors, std::string& text);
+
+/// Reads an agent's message with the server's tolerance (extra values ignored, unknown names counted, the
+/// last of equal effectors wins, C-style numbers). Returns the number of things skipped.
+int parseEffectors(std::string_view text, Effectors& effectors);
+
+}  // namespace nonet::protocol

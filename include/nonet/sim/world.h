@@ -1,0 +1,143 @@
+// The physics world: ODE, the field, the ball and any number of Naos. A library without sockets or rules; any
+// number of worlds in one process. Server facts, sections 2 and 3.
+//
+// Frames and units here are the server's: world x to the right goal, y to the left touch line (seen by the
+// left team), z up; body frames x right, y forward, z up. Scene poses and sensor mathematics are 32-bit, as
+// in the server; ODE is double precision.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "nonet/model/robot_model.h"
+
+namespace nonet::sim {
+
+using Vector3f = Eigen::Vector3f;
+
+/// Pose of a body as the scene tree holds it: rotation columns are the body's axes in the world.
+struct ScenePose {
+  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
+  Vector3f position = Vector3f::Zero();
+};
+
+/// Robots are named by a handle that is never reused within a world.
+using RobotHandle = int;
+inline constexpr RobotHandle kNoRobot = -1;
+
+struct WorldSettings {
+  enum class Solver : std::uint8_t { Exact, Quick };
+  Solver solver = Solver::Exact;  // ODE's dWorldStep or dWorldQuickStep
+  int quickIterations = 50;
+  int threads = 1;            // workers that step separate islands; the result does not depend on it
+  double fieldLength = 30.0;  // m
+  double fieldWidth = 20.0;
+  double goalWidth = 2.1;
+  double goalDepth = 0.6;
+  double goalHeight = 0.8;
+  double ballRadius = 0.042;
+  double ballMass = 0.026;
+};
+
+/// Who owns a geom that took part in a contact.
+struct ContactParty {
+  enum class Kind : std::uint8_t { Static, Ball, Robot } kind = Kind::Static;
+  RobotHandle robot = kNoRobot;
+  model::BodyId body = model::BodyId::Torso;
+};
+
+/// One pair of geoms that touched in the last step, with its contact points (1..4).
+struct ContactPair {
+  ContactParty first;  // as delivered by ODE
+  ContactParty second;
+  int pointCount = 0;
+  Vector3f meanPosition = Vector3f::Zero();  // over its contact points, world, m
+};
+
+/// Centre and force of a foot's (toe's) contacts in its own frame (server facts 2.6).
+struct FootContact {
+  Vector3f center = Vector3f::Zero();
+  Vector3f force = Vector3f::Zero();
+};
+
+class World {
+ public:
+  explicit World(const WorldSettings& settings = {});
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const WorldSettings& settings() const;
+  double time() const;  // s of simulated physics, cycles * 0.02
+
+  // -- robots
+  // ---------------------------------------------------------------------------------------------------
+  /// Builds a robot with its torso at (0, -1, 1.5), upright, all joints 0, facing +y.
+  RobotHandle addRobot(int type);
+  void removeRobot(RobotHandle robot);
+  std::span<const RobotHandle> robots() const;  // in order of creation
+  int robotType(RobotHandle robot) const;
+
+  /// The hinge effector (server facts 2.4): clamps to the joint's speed (32-bit), honours frozen joints, is
+  /// ignored at or beyond a stop, wakes the child body if the command is not 0.
+  void setJointSpeed(RobotHandle robot, model::JointId joint, float radPerSecond);
+  void freezeJoint(RobotHandle robot, model::JointId joint, bool frozen);
+  bool isFrozen(RobotHandle robot, model::JointId joint) const;
+  float jointAngle(RobotHandle robot, model::JointId joint) const;  // rad, as the perceptor computes it
+
+  /// Rigid move: torso to `position`, rotation and joints kept, all velocities 0. Sleeping bodies stay
+  /// asleep.
+  void moveRobot(RobotHandle robot, const Vector3f& position);
+  /// As above, and the torso exactly upright with this yaw in degrees (0 = facing +y).
+  void placeRobot(RobotHandle robot, const Vector3f& position, float yawDegrees);
+
+  /// Scene poses after the last step (or move).
+  const ScenePose& bodyPose(RobotHandle robot, model::BodyId body) const;
+  Vector3f bodyVelocity(RobotHandle robot, model::BodyId body) const;  // m/s, world
+  Vector3f gyro(RobotHandle robot) const;           // rad/s, torso axes, after the last step
+  Vector3f accelerometer(RobotHandle robot) const;  // m/s^2, torso axes, sampled before the last step
+  /// Nothing if that foot (or toe) had no contact in the last step.
+  std::optional<FootContact> footContact(RobotHandle robot, model::BodyId foot) const;
+
+  // -- ball
+  // -----------------------------------------------------------------------------------------------------
+  Vector3f ballPosition() const;
+  Vector3f ballVelocity() const;
+  Vector3f ballAngularVelocity() const;
+  void setBallPosition(const Vector3f& position);  // keeps velocity and spin, wakes it
+  void setBallVelocity(const Vector3f& velocity);  // stops the spin, wakes it
+  /// The goal trigger box that the ball overlapped in the last step, if any.
+  enum class Goal : std::uint8_t { None, Left, Right };
+  Goal ballInGoal() const;
+
+  // -- stepping
+  // -------------------------------------------------------------------------------------------------
+  /// Drag and sensor sampling (the server's pre-physics phase). Deferred effectors are executed by the caller
+  /// right after it.
+  void prePhysics();
+  /// Collision, one ODE step of 0.02 s, copy of the poses (collide + step + post-physics).
+  void stepPhysics();
+  /// Contacts of the last step, in the order in which ODE delivered them.
+  std::span<const ContactPair> contacts() const;
+
+  // -- state
+  // ----------------------------------------------------------------------------------------------------
+  /// The full state; restoring it into a world with the same settings (this one or another) continues
+  /// bit-exactly.
+  std::vector<std::uint8_t> save() const;
+  void restore(std::span<const std::uint8_t> state);
+  /// Hash of all positions and velocities, for determinism checks.
+  std::uint64_t signature() const;
+
+  struct Implementation;
+
+ private:
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace nonet::sim

@@ -1,0 +1,30 @@
+// The world stage: Percept -> WorldState. Needs the robot model and the parameters; gives one plain value.
+#pragma once
+
+#include <memory>
+
+#include "nonet/model/robot_model.h"
+#include "nonet/protocol/percept.h"
+#include "nonet/world/parameters.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::world {
+
+class WorldModel {
+ public:
+  WorldModel(const model::RobotModel& model, const WorldParameters& parameters,
+             const protocol::TeamName& team, std::uint64_t seed);
+  ~WorldModel();
+
+  /// Absorbs one message. The reference stays valid until the next call.
+  const WorldState& update(const protocol::Percept& percept);
+
+  /// Tells the localization that the robot asked to be beamed to X_FR (own field frame).
+  void expectBeam(const Pose2& X_FR);
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace nonet::world

@@ -1,0 +1,108 @@
+// Everything the robot believes, as one plain value in the own team's field frame F (x to the opponent's
+// goal). Each part carries the time of its last measurement and its uncertainty. Only `world` converts
+// coordinates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "nonet/math/pose2.h"
+#include "nonet/math/types.h"
+#include "nonet/protocol/percept.h"
+#include "nonet/world/body_state.h"
+
+namespace nonet::world {
+
+inline constexpr int kTeamSize = 11;
+inline constexpr double kNever = -1e9;  // time stamp of what was never measured
+
+struct FieldGeometry {
+  double length = 30.0;       // m, goal line to goal line
+  double width = 20.0;        // m
+  double goalWidth = 2.1;     // m
+  double goalDepth = 0.6;     // m
+  double goalHeight = 0.8;    // m
+  double areaLength = 1.8;    // m, penalty area from the goal line
+  double areaWidth = 6.0;     // m
+  double circleRadius = 2.0;  // m
+};
+
+/// Play modes from the own team's view.
+enum class Phase : std::uint8_t {
+  BeforeKickOff,
+  OwnKickOff,
+  OpponentKickOff,
+  PlayOn,
+  OwnKickIn,
+  OpponentKickIn,
+  OwnCorner,
+  OpponentCorner,
+  OwnGoalKick,
+  OpponentGoalKick,
+  OwnFreeKick,
+  OpponentFreeKick,
+  OwnDirectFreeKick,
+  OpponentDirectFreeKick,
+  OwnPass,
+  OpponentPass,
+  OwnGoal,
+  OpponentGoal,
+  GameOver,
+  Other,
+};
+
+struct GameState {
+  protocol::TeamName team;
+  int unum = 0;                                        // 0 until the server confirmed it
+  protocol::TeamSide side = protocol::TeamSide::None;  // side assigned by the server at init
+  bool sidesSwapped = false;                           // second half with the sides changed
+  Phase phase = Phase::BeforeKickOff;
+  protocol::PlayMode playMode = protocol::PlayMode::Unknown;
+  double time = 0.0;        // game time, s
+  double phaseSince = 0.0;  // server time at which the phase began, s
+  int ownScore = 0;
+  int opponentScore = 0;
+};
+
+struct SelfState {
+  Pose2 X_FR;                                // torso on the ground, heading
+  Matrix3 covariance = Matrix3::Identity();  // of (x, y, heading)
+  Pose3 X_FC = Pose3::Identity();            // camera
+  double height = 0.0;                       // of the torso, m
+  bool localized = false;                    // good enough to act on
+  double lastCorrection = kNever;            // server time of the last landmark used, s
+};
+
+struct BallState {
+  Vector3 p_FB = Vector3::Zero();            // m
+  Vector3 v_FB = Vector3::Zero();            // m/s
+  Vector2 p_RB = Vector2::Zero();            // in the robot frame on the ground, m
+  Matrix2 covariance = Matrix2::Identity();  // of p_FB (x, y), m^2
+  double lastSeen = kNever;                  // server time of the last own sighting, s
+  bool known = false;                        // seen or reported recently enough to act on
+  Vector2 p_FRest = Vector2::Zero();         // where it will stop if nobody touches it, m
+};
+
+struct PlayerState {
+  Pose2 X_FP;                      // position and (if headingKnown) heading
+  Vector2 v_FP = Vector2::Zero();  // m/s
+  double sigma = 1.0;              // m, standard deviation of the position
+  double lastSeen = kNever;        // server time of the last sighting or report, s
+  bool known = false;
+  bool headingKnown = false;
+  bool fallen = false;
+};
+
+struct WorldState {
+  double time = 0.0;  // server time, s
+  FieldGeometry field;
+  GameState game;
+  BodyState body;
+  SelfState self;
+  BallState ball;
+  std::array<PlayerState, kTeamSize + 1> teammates{};  // indexed by uniform number; [unum] is oneself
+  std::array<PlayerState, kTeamSize + 1> opponents{};
+};
+
+}  // namespace nonet::world
