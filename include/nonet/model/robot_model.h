@@ -1,6 +1,10 @@
 // The five Nao types as data: one source for the agent's kinematics and for the simulation.
 // Frame: the robot's (x forward, y left, z up), all joints at 0; metres, kilograms, radians.
 // Source: the server facts, sections 2.1-2.3.
+//
+// Vectors keep the server's decimal numbers exactly: x here is the server's y, y here the server's -x. So the
+// simulation gets back what the server's scene files say (x_server = -y, y_server = x) and can repeat its
+// 32-bit arithmetic.
 #pragma once
 
 #include <array>
@@ -40,8 +44,9 @@ struct JointSpec {
   BodyId child = BodyId::Torso;
   BodyId parent = BodyId::Torso;
   Vector3 anchor = Vector3::Zero();  // in the child's frame, m
-  Vector3 axis =
-      Vector3::UnitX();   // unit axis; the server rounds 1/sqrt(2) to 0.7071, the simulation normalises
+  // At zero pose, in the torso frame. Stored with the server's digits: the hip yaw-pitch axis is
+  // (0, 0.7071, +-0.7071), not quite of unit length. forwardKinematics() normalises, the simulation too.
+  Vector3 axis = Vector3::UnitX();
   double low = 0.0;       // rad
   double high = 0.0;      // rad
   double maxSpeed = 0.0;  // rad/s
@@ -49,6 +54,7 @@ struct JointSpec {
 
 class RobotModel {
  public:
+  /// `type` 0..4; anything else throws std::out_of_range.
   explicit RobotModel(int type);
 
   int type() const { return type_; }
@@ -75,7 +81,7 @@ class RobotModel {
   double standingHeight_ = 0.0;
 };
 
-/// The shared, immutable model of a type (0..4).
+/// The shared, immutable model of a type (0..4; otherwise std::out_of_range).
 const RobotModel& robotModel(int type);
 
 }  // namespace nonet::model
