@@ -2,6 +2,8 @@
 #pragma once
 
 #include "nonet/config/parameters.h"
+#include "nonet/motion/head_control.h"
+#include "nonet/motion/stand_parameters.h"
 
 namespace nonet::motion {
 
@@ -22,10 +24,14 @@ struct ControlParameters {
 
 struct MotionParameters {
   ControlParameters control;
+  StandParameters stand;
+  HeadParameters head;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit.group("control", self.control);
+    visit.group("stand", self.stand);
+    visit.group("head", self.head);
   }
 };
 
