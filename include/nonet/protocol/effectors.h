@@ -40,12 +40,23 @@ struct Effectors {
   bool hasSpeed(model::JointId joint) const { return (speedsPresent >> model::index(joint)) & 1U; }
 };
 
-/// Writes the message: numbers in the shortest form that reads back the same after rounding to 6 significant
-/// digits.
+inline constexpr std::size_t kMaxSayLength = 20;
+
+/// What the server lets pass in (say ..): 1 to 20 printable ASCII characters without blank and brackets
+/// (server facts 1.7).
+bool isSayable(std::string_view message);
+
+/// Replaces `text` by the message: numbers as printf("%.6g") writes them, beam angle in degrees. An empty
+/// scene file stands for rsg/agent/nao/nao_hetero.rsg with the robot type.
 void writeEffectors(const Effectors& effectors, std::string& text);
 
 /// Reads an agent's message with the server's tolerance (extra values ignored, unknown names counted, the
-/// last of equal effectors wins, C-style numbers). Returns the number of things skipped.
+/// last of equal effectors wins, C-style numbers, an incomplete expression at the end dropped). `effectors`
+/// is cleared first. Returns the number of things skipped; messages that are not sayable are among them.
 int parseEffectors(std::string_view text, Effectors& effectors);
+
+/// Rounds all numbers as writeEffectors() and parseEffectors() would, to the last bit: what an in-process
+/// server must do so that it gets what a server at the other end of a socket gets.
+void roundAsWritten(Effectors& effectors);
 
 }  // namespace nonet::protocol

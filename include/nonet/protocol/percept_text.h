@@ -12,7 +12,8 @@ namespace nonet::protocol {
 /// and counted in percept.unknownTokens. `percept` is cleared first.
 void parsePercept(std::string_view text, Percept& percept);
 
-/// Writes a message in the server's format (fixed, two decimals). parse then write gives the same bytes.
+/// Replaces `text` by the message in the server's format (fixed, two decimals). parse then write gives the
+/// same bytes.
 void writePercept(const Percept& percept, std::string& text);
 
 }  // namespace nonet::protocol
