@@ -13,8 +13,9 @@ Assignment RoleAssigner::assign(std::span<const Vector2> players, std::span<cons
   const int n = static_cast<int>(players.size());
   const std::uint32_t everybody = (1U << n) - 1U;
 
-  // A set of k players stands for the best mapping of exactly those players to the first k positions (Theorem 2: every
-  // part of an optimal mapping is optimal), so increasing bit patterns visit every smaller set first.
+  // A set of k players stands for the best mapping of exactly those players to the first k positions (Theorem
+  // 2: every part of an optimal mapping is optimal), so increasing bit patterns visit every smaller set
+  // first.
   for (std::uint32_t set = 1; set <= everybody; ++set) {
     const int count = std::popcount(set);
     Cost& best = best_[set];
@@ -26,7 +27,8 @@ Assignment RoleAssigner::assign(std::span<const Vector2> players, std::span<cons
       Cost candidate;
       candidate.lastPlayer = static_cast<std::int8_t>(player);
       const auto* restEnd = rest.distances.begin() + (count - 1);
-      const auto* place = std::find_if(rest.distances.begin(), restEnd, [&](double d) { return d < distance; });
+      const auto* place =
+          std::find_if(rest.distances.begin(), restEnd, [&](double d) { return d < distance; });
       auto* out = std::copy(rest.distances.begin(), place, candidate.distances.begin());
       *out++ = distance;
       std::copy(place, restEnd, out);

@@ -12,10 +12,11 @@
 namespace nonet::team {
 namespace {
 
-std::vector<double> sortedDistances(const std::vector<Vector2>& players, const std::vector<Vector2>& positions,
-                                    const std::vector<int>& mapping) {
+std::vector<double> sortedDistances(const std::vector<Vector2>& players,
+                                    const std::vector<Vector2>& positions, const std::vector<int>& mapping) {
   std::vector<double> distances;
-  for (std::size_t i = 0; i < players.size(); ++i) distances.push_back((players[i] - positions[mapping[i]]).norm());
+  for (std::size_t i = 0; i < players.size(); ++i)
+    distances.push_back((players[i] - positions[mapping[i]]).norm());
   std::sort(distances.rbegin(), distances.rend());
   return distances;
 }
@@ -52,9 +53,9 @@ TEST(RoleAssignment, EqualsBruteForceOnRandomTeams) {
 }
 
 TEST(RoleAssignment, ReproducesTheOrderOfFigure6) {
-  // The paper's Figure 6 lists the squared-root costs of three agents and three positions on a grid.
-  const std::vector<Vector2> players = {{0, 1}, {1, 1}, {2, 1}};
-  const std::vector<Vector2> positions = {{0, 0}, {2, 2}, {3, 0}};
+  // Figure 6: A1 -> P1 (1), A2 -> P2 (sqrt 2), A3 -> P3 (sqrt 2) is the lowest of the six costs.
+  const std::vector<Vector2> players = {{0, 0}, {1, 1}, {2, 1}};
+  const std::vector<Vector2> positions = {{1, 0}, {2, 0}, {3, 0}};
   RoleAssigner assigner;
   const Assignment assignment = assigner.assign(players, positions);
   EXPECT_EQ(assignment[0], 0);
@@ -81,7 +82,8 @@ TEST(RoleAssignment, StaysTheSameWhilePlayersWalkStraightToTheirTargets) {
       }
       const Assignment now = assigner.assign(players, positions);
       for (int i = 0; i < 8; ++i) {
-        // Players that have arrived at the same cost may be exchanged only if nothing gets worse: same cost tuple.
+        // Players that have arrived at the same cost may be exchanged only if nothing gets worse: same cost
+        // tuple.
         if (now[i] == first[i]) continue;
         const std::vector<int> a(first.begin(), first.begin() + 8);
         const std::vector<int> b(now.begin(), now.begin() + 8);

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "nonet/agent/parameters.h"
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
+#include "nonet/team/formation.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::agent {
@@ -18,7 +20,8 @@ struct AgentConfig {
   int robotType = 0;  // 0..4
   std::uint64_t seed = 1;
   AgentParameters parameters;
-  std::string skillFolder;  // folder of the *.skl files
+  std::string skillFolder;         // folder of the *.skl files
+  std::optional<Pose2> startPose;  // challenges: beam here instead of to the kick-off place (own field frame)
 };
 
 class Agent {
@@ -26,12 +29,16 @@ class Agent {
   explicit Agent(const AgentConfig& config);
   ~Agent();
 
-  /// One cycle. Allocates nothing in steady state. The reference stays valid until the next call. `syn` is
-  /// not set: that is the transport's business.
+  /// What to send before the first message arrives: the scene effector.
+  protocol::Effectors hello() const;
+
+  /// One cycle. The first one asks for team and number (init). Allocates nothing in steady state. The
+  /// reference stays valid until the next call. `syn` is not set: that is the transport's business.
   const protocol::Effectors& step(const protocol::Percept& percept);
 
   /// What it believes, for measurements and drawings.
   const world::WorldState& world() const;
+  team::Role role() const;
   const AgentConfig& config() const;
 
  private:

@@ -1,22 +1,171 @@
-// Declared parameters of the team stage.
+// Declared parameters of the team stage: formation, ball handling, goalkeeping.
 #pragma once
 
 #include "nonet/config/parameters.h"
 
 namespace nonet::team {
 
-struct TeamParameters {
-  double nearBall = 0.8;
+/// Role positions relative to the ball (offensive group) and on the line from the own goal to the ball
+/// (backs), after section 6.1 and Figure 5 of the 2011 champion's paper.
+struct FormationParameters {
+  double forwardAhead = 2.0;
+  double forwardAside = 2.5;
+  double wingBehind = 2.5;
+  double wingAside = 3.0;
+  double stopperBehind = 1.5;
+  double supporterBehind = 4.0;
+  double firstBackFromGoal = 3.0;
+  double secondBackFromGoal = 5.5;
+  double backAside = 0.7;
+  double touchLineMargin = 0.7;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
-    visit({"nearBall",
+    visit({"forwardAhead", Unit::Metre, {0, 10}, search(0.5, 4), "Forwards: ahead of the ball"},
+          self.forwardAhead);
+    visit({"forwardAside", Unit::Metre, {0, 10}, search(1, 5), "Forwards: to the side of the ball"},
+          self.forwardAside);
+    visit({"wingBehind", Unit::Metre, {0, 10}, search(1, 5), "Wings: behind the ball"}, self.wingBehind);
+    visit({"wingAside", Unit::Metre, {0, 10}, search(1, 6), "Wings: to the side of the ball"},
+          self.wingAside);
+    visit({"stopperBehind", Unit::Metre, {0, 10}, search(0.8, 4), "Stopper: behind the ball"},
+          self.stopperBehind);
+    visit({"supporterBehind", Unit::Metre, {0, 10}, search(2, 8), "Supporter: behind the ball"},
+          self.supporterBehind);
+    visit({"firstBackFromGoal",
            Unit::Metre,
-           {0.1, 5.0},
+           {1, 15},
+           search(1.5, 5),
+           "Nearer back: distance from the own goal"},
+          self.firstBackFromGoal);
+    visit({"secondBackFromGoal",
+           Unit::Metre,
+           {1, 15},
+           search(3, 8),
+           "Farther back: distance from the own goal"},
+          self.secondBackFromGoal);
+    visit({"backAside", Unit::Metre, {0, 3}, search(0, 1.5), "Backs: to either side of the line goal - ball"},
+          self.backAside);
+    visit({"touchLineMargin", Unit::Metre, {0, 3}, fixed, "Positions stay this far inside the field"},
+          self.touchLineMargin);
+  }
+};
+
+struct BallHandlingParameters {
+  double behindBall = 0.25;
+  double circleRadius = 0.45;
+  double dribbleThrough = 0.6;
+  double alignedAngle = 0.45;
+  double alignedAside = 0.10;
+  bool kick = true;
+  double kickForwardLow = 0.12;
+  double kickForwardHigh = 0.24;
+  double kickAside = 0.055;
+  double kickAsideTolerance = 0.03;
+  double kickAngle = 0.3;
+  double kickOpponentDistance = 1.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"behindBall", Unit::Metre, {0.05, 2}, search(0.1, 0.5), "Approach point: torso behind the ball"},
+          self.behindBall);
+    visit({"circleRadius",
+           Unit::Metre,
+           {0.1, 3},
+           search(0.3, 0.8),
+           "Distance kept when walking around the ball"},
+          self.circleRadius);
+    visit(
+        {"dribbleThrough", Unit::Metre, {0, 5}, search(0.2, 1.5), "Dribbling aims this far beyond the ball"},
+        self.dribbleThrough);
+    visit({"alignedAngle",
+           Unit::Radian,
+           {0, 3.2},
+           search(0.1, 1.0),
+           "Dribble when ball and target lie within this angle"},
+          self.alignedAngle);
+    visit({"alignedAside",
+           Unit::Metre,
+           {0, 1},
+           search(0.03, 0.2),
+           "Dribble when the ball lies this near to the line"},
+          self.alignedAside);
+    visit({"kick", Unit::None, {0, 1}, fixed, "Whether to kick at all"}, self.kick);
+    visit({"kickForwardLow", Unit::Metre, {0, 1}, fixed, "Kick: ball at least this far ahead of the torso"},
+          self.kickForwardLow);
+    visit({"kickForwardHigh", Unit::Metre, {0, 1}, fixed, "Kick: ball at most this far ahead of the torso"},
+          self.kickForwardHigh);
+    visit({"kickAside",
+           Unit::Metre,
+           {0, 0.3},
            fixed,
-           "Distance to the ball at which careful positioning begins"},
-          self.nearBall);
+           "Kick: ball in front of the foot, this far from the middle"},
+          self.kickAside);
+    visit({"kickAsideTolerance", Unit::Metre, {0, 0.3}, fixed, "Kick: allowed error of kickAside"},
+          self.kickAsideTolerance);
+    visit({"kickAngle", Unit::Radian, {0, 3.2}, fixed, "Kick: allowed error of the heading"}, self.kickAngle);
+    visit({"kickOpponentDistance",
+           Unit::Metre,
+           {0, 10},
+           fixed,
+           "Kick only when no opponent is nearer to the ball"},
+          self.kickOpponentDistance);
+  }
+};
+
+struct GoalieParameters {
+  double outOfGoal = 0.6;
+  double attackDistance = 2.0;
+  double diveTime = 1.2;
+  double diveReach = 0.25;
+  bool dive = true;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"outOfGoal", Unit::Metre, {0, 5}, search(0.2, 1.5), "Stands this far in front of the goal line"},
+          self.outOfGoal);
+    visit({"attackDistance",
+           Unit::Metre,
+           {0, 10},
+           search(0.5, 4),
+           "Goes to a ball that is this near to the goal centre"},
+          self.attackDistance);
+    visit({"diveTime", Unit::Second, {0, 5}, search(0.4, 2), "Dives when the ball arrives within this time"},
+          self.diveTime);
+    visit({"diveReach", Unit::Metre, {0, 2}, search(0.1, 0.5), "A ball passing farther aside needs a dive"},
+          self.diveReach);
+    visit({"dive", Unit::None, {0, 1}, fixed, "Whether to dive at all"}, self.dive);
+  }
+};
+
+struct TeamParameters {
+  FormationParameters formation;
+  BallHandlingParameters ball;
+  GoalieParameters goalie;
+  double avoidDistance = 0.8;
+  double clearOfOpponentKick = 2.3;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit.group("formation", self.formation);
+    visit.group("ball", self.ball);
+    visit.group("goalie", self.goalie);
+    visit({"avoidDistance",
+           Unit::Metre,
+           {0, 5},
+           search(0.4, 1.5),
+           "Goes around robots that are nearer to the way"},
+          self.avoidDistance);
+    visit({"clearOfOpponentKick",
+           Unit::Metre,
+           {0, 10},
+           fixed,
+           "Distance from the ball while the opponent takes a kick"},
+          self.clearOfOpponentKick);
   }
 };
 

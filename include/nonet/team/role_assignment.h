@@ -1,6 +1,6 @@
-// Assigns players to role positions so that the longest way is shortest, then the second longest, and so on: the
-// lexicographic cost f_v of the 2011 champion's paper (section 6.2), by dynamic programming over sets of players
-// (Algorithm 1; n 2^(n-1) evaluations).
+// Assigns players to role positions so that the longest way is shortest, then the second longest, and so on:
+// the lexicographic cost f_v of the 2011 champion's paper (section 6.2), by dynamic programming over sets of
+// players (Algorithm 1; n 2^(n-1) evaluations).
 #pragma once
 
 #include <array>
@@ -22,7 +22,8 @@ class RoleAssigner {
   RoleAssigner();
 
   /// players.size() == positions.size() <= kMaxAssigned; metres, same frame. Allocates nothing.
-  /// Equal costs are resolved in favour of the lower player index, so every team mate with the same view agrees.
+  /// Equal costs are resolved in favour of the lower player index, so every team mate with the same view
+  /// agrees.
   Assignment assign(std::span<const Vector2> players, std::span<const Vector2> positions);
 
  private:

@@ -1,0 +1,41 @@
+// Where the team should stand: role positions from the ball (2011 champion's paper, section 6.1), and the
+// places at kick-off. Own team's field frame, metres.
+#pragma once
+
+#include <array>
+
+#include "nonet/math/pose2.h"
+#include "nonet/team/parameters.h"
+#include "nonet/team/role_assignment.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::team {
+
+/// The order is that of importance: a smaller team fills the first roles.
+enum class Role : std::uint8_t {
+  OnBall,
+  Stopper,
+  BackLeft,
+  BackRight,
+  WingLeft,
+  WingRight,
+  ForwardLeft,
+  ForwardRight,
+  Supporter,
+  Sweeper,
+  Goalie,
+};
+
+struct Formation {
+  std::array<Vector2, kMaxAssigned> positions{};  // of roles OnBall ... , `count` of them
+  int count = 0;
+};
+
+/// Positions of `count` field players (all but the goalie) when the ball is at p_FB.
+Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
+                       const FormationParameters& parameters);
+
+/// Where player `unum` beams to before a kick-off; everybody is in the own half.
+Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field);
+
+}  // namespace nonet::team

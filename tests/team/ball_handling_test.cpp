@@ -1,0 +1,78 @@
+// The approach as a kinematic scenario: a point robot that follows the requests at walking speed must bring
+// itself behind the ball without touching it, then drive it towards the target, from any start.
+#include "nonet/team/ball_handling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "nonet/math/random.h"
+
+namespace nonet::team {
+namespace {
+
+struct Outcome {
+  bool pushed = false;
+  double pushError = 0.0;  // angle between the first push and the wanted direction
+};
+
+Outcome approach(const Pose2& start, const Vector2& ball, const Vector2& target) {
+  BallHandlingParameters parameters;
+  parameters.kick = false;
+  world::WorldState world;
+  world.self.X_FR = start;
+  world.self.localized = true;
+  world.ball.known = true;
+  world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+  for (int cycle = 0; cycle < 2000; ++cycle) {
+    world.ball.p_RB = world.self.X_FR.inverse() * ball;
+    const motion::MotionRequest request = handleBall(world, target, parameters);
+    const double distance = request.target.translation.norm();
+    const double step = std::min(0.01, distance);  // 0.5 m/s
+    const Vector2 move =
+        distance > 1e-9 ? Vector2(request.target.translation * (step / distance)) : Vector2::Zero();
+    const double turn = std::clamp(request.target.rotation, -0.03, 0.03);
+    world.self.X_FR = world.self.X_FR * Pose2(move, turn);
+    const Vector2 offset = world.self.X_FR.inverse() * ball;
+    if (offset.norm() < 0.14) {  // the feet reach the ball
+      const Vector2 way = target - ball;
+      const Vector2 push = world.self.X_FR.rotate(move);
+      return {true, std::abs(angleDifference(std::atan2(push.y(), push.x()), std::atan2(way.y(), way.x())))};
+    }
+  }
+  return {};
+}
+
+TEST(HandleBall, FirstTouchIsTowardsTheTargetFromAnyStart) {
+  Random random(5);
+  int good = 0;
+  const int trials = 400;
+  for (int trial = 0; trial < trials; ++trial) {
+    const Vector2 ball(random.uniform(-8, 8), random.uniform(-6, 6));
+    const double angle = random.uniform(-kPi, kPi);
+    const double distance = random.uniform(0.4, 4.0);
+    const Pose2 start(ball.x() + distance * std::cos(angle), ball.y() + distance * std::sin(angle),
+                      random.uniform(-kPi, kPi));
+    const Outcome outcome = approach(start, ball, Vector2(15.0, 0.0));
+    if (outcome.pushed && outcome.pushError < 0.7) ++good;
+  }
+  EXPECT_GE(good, trials * 95 / 100) << good << " of " << trials;
+}
+
+TEST(BallTarget, LiesInTheGoalOrBringsTheBallBackToTheMiddle) {
+  world::WorldState world;
+  for (double x = -15; x <= 15; x += 0.5) {
+    for (double y = -10; y <= 10; y += 0.5) {
+      world.ball.p_FB = Vector3(x, y, 0.042);
+      const Vector2 target = ballTarget(world);
+      if (target.x() > 15.0)
+        EXPECT_LT(std::abs(target.y()), 1.05);
+      else
+        EXPECT_GT(x, 13.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nonet::team
