@@ -52,6 +52,19 @@ enum class Phase : std::uint8_t {
   Other,
 };
 
+/// Phases in which the own team / the opponents take the kick (kick-off to direct free kick, pass mode).
+constexpr bool isOwnSetPiece(Phase phase) {
+  return phase == Phase::OwnKickOff || phase == Phase::OwnKickIn || phase == Phase::OwnCorner ||
+         phase == Phase::OwnGoalKick || phase == Phase::OwnFreeKick || phase == Phase::OwnDirectFreeKick ||
+         phase == Phase::OwnPass;
+}
+constexpr bool isOpponentSetPiece(Phase phase) {
+  return phase == Phase::OpponentKickOff || phase == Phase::OpponentKickIn ||
+         phase == Phase::OpponentCorner || phase == Phase::OpponentGoalKick ||
+         phase == Phase::OpponentFreeKick || phase == Phase::OpponentDirectFreeKick ||
+         phase == Phase::OpponentPass;
+}
+
 struct GameState {
   protocol::TeamName team;
   int unum = 0;                                        // 0 until the server confirmed it
@@ -59,8 +72,13 @@ struct GameState {
   bool sidesSwapped = false;                           // second half with the sides changed
   Phase phase = Phase::BeforeKickOff;
   protocol::PlayMode playMode = protocol::PlayMode::Unknown;
-  double time = 0.0;        // game time, s
-  double phaseSince = 0.0;  // server time at which the phase began, s
+  Phase previousPhase = Phase::BeforeKickOff;
+  int half = 1;
+  double time = 0.0;             // game time, s
+  double phaseSince = 0.0;       // server time at which the phase began, s
+  double setPieceLeft = 0.0;     // s until a running set piece ends by itself (drop ball); 0 in other phases
+  bool ownMayTouch = true;       // the own team may play the ball now
+  bool opponentMayTouch = true;  // the opponents may play the ball now
   int ownScore = 0;
   int opponentScore = 0;
 };

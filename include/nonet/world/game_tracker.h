@@ -1,0 +1,37 @@
+// Percept -> GameState: play modes as seen from the own side, score, half, and the silent change of sides.
+#pragma once
+
+#include "nonet/math/pose2.h"
+#include "nonet/protocol/percept.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::world {
+
+class GameTracker {
+ public:
+  explicit GameTracker(const protocol::TeamName& team);
+
+  void update(const protocol::Percept& percept, GameState& state);
+
+  /// Tells where the torso is (x in world axes, L at -x). The server changes the sides at half time without a
+  /// word, but in BeforeKickOff it puts every robot that stands in the opponents' half back at once (server
+  /// facts 4.3): who stands there after half time has changed sides. True if the sides were swapped now.
+  bool noticePlace(double x_W, GameState& state);
+
+ private:
+  void setPhase(Phase phase, double time, GameState& state) const;
+
+  protocol::TeamName team_;
+  bool started_ = false;     // the first message was seen
+  bool played_ = false;      // the game has been under way in this half
+  bool sideChecked_ = true;  // nothing to find out
+  int scoreLeft_ = 0;
+  int scoreRight_ = 0;
+};
+
+/// True if the own team defends the goal at world +x (landmarks named R).
+constexpr bool playsFromRight(const GameState& game) {
+  return (game.side == protocol::TeamSide::Right) != game.sidesSwapped;
+}
+
+}  // namespace nonet::world

@@ -1,0 +1,139 @@
+#include "nonet/world/game_tracker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nonet::world {
+
+namespace {
+
+using protocol::PlayMode;
+
+constexpr double kDropBallTime = 15.0;  // s, RuleDropBallTime (server facts 4.1)
+constexpr double kPassTime = 4.0;       // s, PassModeDuration
+constexpr double kSideMargin = 0.2;     // m beyond the halfway line that prove a change of sides
+
+/// The phase for a mode of the left team, seen by that team, and its counterpart.
+Phase phaseOf(PlayMode mode, bool fromRight) {
+  const auto pick = [&](bool leftTakes, Phase own, Phase opponent) {
+    return leftTakes != fromRight ? own : opponent;
+  };
+  switch (mode) {
+    case PlayMode::BeforeKickOff:
+      return Phase::BeforeKickOff;
+    case PlayMode::PlayOn:
+      return Phase::PlayOn;
+    case PlayMode::GameOver:
+      return Phase::GameOver;
+    case PlayMode::KickOffLeft:
+      return pick(true, Phase::OwnKickOff, Phase::OpponentKickOff);
+    case PlayMode::KickOffRight:
+      return pick(false, Phase::OwnKickOff, Phase::OpponentKickOff);
+    case PlayMode::KickInLeft:
+      return pick(true, Phase::OwnKickIn, Phase::OpponentKickIn);
+    case PlayMode::KickInRight:
+      return pick(false, Phase::OwnKickIn, Phase::OpponentKickIn);
+    case PlayMode::CornerKickLeft:
+      return pick(true, Phase::OwnCorner, Phase::OpponentCorner);
+    case PlayMode::CornerKickRight:
+      return pick(false, Phase::OwnCorner, Phase::OpponentCorner);
+    case PlayMode::GoalKickLeft:
+      return pick(true, Phase::OwnGoalKick, Phase::OpponentGoalKick);
+    case PlayMode::GoalKickRight:
+      return pick(false, Phase::OwnGoalKick, Phase::OpponentGoalKick);
+    case PlayMode::GoalLeft:
+      return pick(true, Phase::OwnGoal, Phase::OpponentGoal);
+    case PlayMode::GoalRight:
+      return pick(false, Phase::OwnGoal, Phase::OpponentGoal);
+    case PlayMode::FreeKickLeft:
+      return pick(true, Phase::OwnFreeKick, Phase::OpponentFreeKick);
+    case PlayMode::FreeKickRight:
+      return pick(false, Phase::OwnFreeKick, Phase::OpponentFreeKick);
+    case PlayMode::DirectFreeKickLeft:
+      return pick(true, Phase::OwnDirectFreeKick, Phase::OpponentDirectFreeKick);
+    case PlayMode::DirectFreeKickRight:
+      return pick(false, Phase::OwnDirectFreeKick, Phase::OpponentDirectFreeKick);
+    case PlayMode::PassLeft:
+      return pick(true, Phase::OwnPass, Phase::OpponentPass);
+    case PlayMode::PassRight:
+      return pick(false, Phase::OwnPass, Phase::OpponentPass);
+    default:
+      return Phase::Other;
+  }
+}
+
+bool isGoal(PlayMode mode) {
+  return mode == PlayMode::GoalLeft || mode == PlayMode::GoalRight;
+}
+
+}  // namespace
+
+GameTracker::GameTracker(const protocol::TeamName& team) : team_(team) {}
+
+void GameTracker::update(const protocol::Percept& percept, GameState& state) {
+  const protocol::GameStatus& game = percept.game;
+  state.team = team_;
+  if (game.unum) state.unum = *game.unum;
+  if (game.side) {
+    state.side = *game.side;
+    state.sidesSwapped = false;
+  }
+  state.time = game.time;
+
+  const PlayMode before = state.playMode;
+  if (game.playMode == PlayMode::BeforeKickOff) {
+    if (played_ && !isGoal(before)) {  // half time (never straight after a goal)
+      state.half = 2;
+      sideChecked_ = false;
+    }
+    played_ = false;
+  } else if (game.playMode != PlayMode::Unknown && game.playMode != PlayMode::GameOver) {
+    played_ = true;
+  }
+  // The score goes with the team: if it changes places at half time, the sides did.
+  if (!sideChecked_ && game.scoreLeft && game.scoreRight && *game.scoreLeft != *game.scoreRight &&
+      *game.scoreLeft == scoreRight_ && *game.scoreRight == scoreLeft_) {
+    state.sidesSwapped = !state.sidesSwapped;
+    sideChecked_ = true;
+  }
+  scoreLeft_ = game.scoreLeft.value_or(scoreLeft_);
+  scoreRight_ = game.scoreRight.value_or(scoreRight_);
+  const bool fromRight = playsFromRight(state);
+  state.ownScore = fromRight ? scoreRight_ : scoreLeft_;
+  state.opponentScore = fromRight ? scoreLeft_ : scoreRight_;
+  state.playMode = game.playMode;
+  setPhase(phaseOf(game.playMode, fromRight), percept.time, state);
+  started_ = true;
+}
+
+void GameTracker::setPhase(Phase phase, double time, GameState& state) const {
+  if (phase != state.phase || !started_) {
+    state.previousPhase = state.phase;
+    state.phase = phase;
+    state.phaseSince = time;
+  }
+  const bool own = isOwnSetPiece(phase);
+  const bool opponent = isOpponentSetPiece(phase);
+  const double limit = phase == Phase::OwnPass || phase == Phase::OpponentPass ? kPassTime : kDropBallTime;
+  state.setPieceLeft = own || opponent ? std::max(0.0, limit - (time - state.phaseSince)) : 0.0;
+  const bool stopped = phase == Phase::BeforeKickOff || phase == Phase::OwnGoal ||
+                       phase == Phase::OpponentGoal || phase == Phase::GameOver;
+  state.ownMayTouch = !opponent && !stopped;
+  state.opponentMayTouch = !own && !stopped;
+}
+
+bool GameTracker::noticePlace(double x_W, GameState& state) {
+  if (sideChecked_ || state.playMode != PlayMode::BeforeKickOff) return false;
+  const double ahead = playsFromRight(state) ? -x_W : x_W;
+  if (ahead < kSideMargin) {
+    // In the own half: the sides are as believed, unless the robot hugs the halfway line.
+    if (ahead < -kSideMargin) sideChecked_ = true;
+    return false;
+  }
+  state.sidesSwapped = !state.sidesSwapped;
+  std::swap(state.ownScore, state.opponentScore);
+  sideChecked_ = true;
+  return true;
+}
+
+}  // namespace nonet::world
