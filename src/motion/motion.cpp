@@ -1,7 +1,7 @@
 #include "nonet/motion/motion.h"
 
 #include "nonet/motion/head_control.h"
-#include "nonet/motion/limbs.h"
+#include "nonet/motion/walk_control.h"
 
 namespace nonet::motion {
 
@@ -34,22 +34,16 @@ class Transition {
 
 struct Motion::Stages {
   Stages(const model::RobotModel& robot, const MotionParameters& motionParameters)
-      : model(&robot), parameters(motionParameters), head(robot, motionParameters.head) {
-    const StandParameters& stand = parameters.stand;
-    FootPoses feet{Pose3::Identity(), Pose3::Identity()};
-    for (const model::Side side : {model::Side::Left, model::Side::Right}) {
-      feet[index(side)].translation() =
-          Vector3(stand.xOffset, 0.5 * sideSign(side) * stand.ySep, -stand.height * robot.standingHeight());
-      setArm(side, ArmAttitude{stand.armPitch, stand.armYaw, 0.0, stand.elbow}, standing);
-    }
-    setLegs(robot, feet, standing);
-  }
+      : model(&robot),
+        parameters(motionParameters),
+        walk(robot, motionParameters.sets, motionParameters.selection),
+        head(robot, motionParameters.head) {}
 
   const model::RobotModel* model;
   MotionParameters parameters;
+  WalkControl walk;
   HeadControl head;
   Transition transition;
-  model::JointArray standing{};
   JointTargets targets;
   MotionState state;
   bool started = false;
@@ -64,16 +58,15 @@ const MotionState& Motion::state() const {
   return stages_->state;
 }
 
-const JointTargets& Motion::update(const world::WorldState& world,
-                                   [[maybe_unused]] const MotionRequest& request, const HeadRequest& head) {
+const JointTargets& Motion::update(const world::WorldState& world, const MotionRequest& request,
+                                   const HeadRequest& head) {
   Stages& s = *stages_;
   s.state = MotionState{};
+  s.walk.update(world, request, s.targets);
   if (!s.started) {
-    s.transition.begin(world.body.joints, s.standing, s.parameters.stand.blendTime);
+    s.transition.begin(world.body.joints, s.targets.angles, s.parameters.transition.standTime);
     s.started = true;
   }
-  s.targets.angles = s.standing;
-  s.targets.stiffness.fill(1.0);
   s.transition.apply(world.body.cycleTime, s.targets.angles);
   s.head.update(world.body, head, s.targets);
   return s.targets;

@@ -3,7 +3,7 @@
 
 #include "nonet/config/parameters.h"
 #include "nonet/motion/head_control.h"
-#include "nonet/motion/stand_parameters.h"
+#include "nonet/motion/walk_control.h"
 
 namespace nonet::motion {
 
@@ -22,15 +22,32 @@ struct ControlParameters {
   }
 };
 
+struct TransitionParameters {
+  double standTime = 0.5;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"standTime", Unit::Second, {0.02, 5.0}, fixed, "Time to take the stand from another pose"},
+          self.standTime);
+  }
+};
+
 struct MotionParameters {
   ControlParameters control;
-  StandParameters stand;
+  TransitionParameters transition;
+  WalkSelection selection;
+  WalkSets sets;
   HeadParameters head;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit.group("control", self.control);
-    visit.group("stand", self.stand);
+    visit.group("transition", self.transition);
+    visit.group("selection", self.selection);
+    visit.group("walk", self.sets.goToTarget);
+    visit.group("sprint", self.sets.sprint);
+    visit.group("positioning", self.sets.positioning);
     visit.group("head", self.head);
   }
 };

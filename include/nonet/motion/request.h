@@ -9,6 +9,9 @@
 
 namespace nonet::motion {
 
+/// Which parameter set the walk uses; Automatic: by target and ball (walk_control.h).
+enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Positioning };
+
 /// Rising from a fall needs no request: motion does it by itself unless the request is Skill or Dive.
 struct MotionRequest {
   enum class Kind : std::uint8_t {
@@ -22,6 +25,7 @@ struct MotionRequest {
   Pose2 velocity;
   Pose2 target;
   bool stopAtTarget = true;
+  WalkSet set = WalkSet::Automatic;
   Vector2 ball = Vector2::Zero();
   InlineString<32> skill;
   model::Side side = model::Side::Left;  // mirror of the skill, kicking foot

@@ -1,0 +1,73 @@
+// Walk control: a request (stand, velocity, target) -> speed and parameter set for the walk engine.
+//
+// Sets, as in the AAMAS 2012 paper, section 4.2: `walk` (goToTarget) always; `sprint` when the target lies
+// within 15 degrees of the robot's direction; `positioning` within 0.8 m of the ball. Changes are blended.
+#pragma once
+
+#include "nonet/motion/walk_engine.h"
+#include "nonet/motion/walk_parameters.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::motion {
+
+struct WalkSets {
+  WalkParameters goToTarget;
+  WalkParameters sprint;
+  WalkParameters positioning;
+};
+
+struct WalkSelection {
+  bool useSprint = false;
+  bool usePositioning = false;
+  double sprintAngle = 0.2618;
+  double sprintDistance = 0.5;
+  double positioningDistance = 0.8;
+  double blendTime = 0.1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"useSprint", Unit::None, {0, 1}, fixed, "Whether the sprint set is used at all"}, self.useSprint);
+    visit({"usePositioning", Unit::None, {0, 1}, fixed, "Whether the positioning set is used at all"},
+          self.usePositioning);
+    visit(
+        {"sprintAngle", Unit::Radian, {0.0, 3.2}, fixed, "Sprint: largest angle between heading and target"},
+        self.sprintAngle);
+    visit({"sprintDistance", Unit::Metre, {0.0, 30.0}, fixed, "Sprint: least distance of the target"},
+          self.sprintDistance);
+    visit(
+        {"positioningDistance", Unit::Metre, {0.0, 30.0}, fixed, "Positioning: largest distance of the ball"},
+        self.positioningDistance);
+    visit({"blendTime", Unit::Second, {0.0, 2.0}, fixed, "Time to change from one set to another"},
+          self.blendTime);
+  }
+};
+
+class WalkControl {
+ public:
+  WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection);
+
+  /// Kinds Stand, WalkVelocity and WalkTo; any other stands.
+  void update(const world::WorldState& world, const MotionRequest& request, JointTargets& targets);
+
+  /// Begins again from the stand (after a fall, a skill).
+  void reset() { engine_.reset(); }
+  bool standing() const { return engine_.standing(); }
+  const WalkEngine& engine() const { return engine_; }
+  WalkSet set() const { return set_; }
+
+ private:
+  WalkSet chooseSet(const world::WorldState& world, const MotionRequest& request) const;
+  const WalkParameters& parametersOf(WalkSet set) const;
+  Pose2 speedTowards(const MotionRequest& request) const;
+
+  WalkSets sets_;
+  WalkSelection selection_;
+  WalkEngine engine_;
+  WalkSet set_ = WalkSet::GoToTarget;
+  WalkParameters from_;  // active when the set changed
+  WalkParameters active_;
+  double blended_ = 1.0;  // share of the change that is done
+};
+
+}  // namespace nonet::motion

@@ -1,0 +1,87 @@
+#include "nonet/motion/walk_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nonet::motion {
+
+WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection)
+    : sets_(sets), selection_(selection), engine_(model), from_(sets.goToTarget), active_(sets.goToTarget) {}
+
+void WalkControl::update(const world::WorldState& world, const MotionRequest& request,
+                         JointTargets& targets) {
+  const WalkSet set = chooseSet(world, request);
+  if (set != set_) {
+    set_ = set;
+    from_ = active_;
+    blended_ = 0.0;
+  }
+  if (blended_ < 1.0) {
+    const double time = std::max(selection_.blendTime, kCycleTime);
+    blended_ = std::min(1.0, blended_ + world.body.cycleTime / time);
+    active_ = blend(from_, parametersOf(set_), blended_);
+  }
+  const bool walk =
+      request.kind == MotionRequest::Kind::WalkVelocity || request.kind == MotionRequest::Kind::WalkTo;
+  Pose2 speed;
+  if (request.kind == MotionRequest::Kind::WalkVelocity) speed = request.velocity;
+  if (request.kind == MotionRequest::Kind::WalkTo) speed = speedTowards(request);
+  engine_.update(world.body, active_, speed, walk, targets);
+}
+
+const WalkParameters& WalkControl::parametersOf(WalkSet set) const {
+  switch (set) {
+    case WalkSet::Sprint:
+      return sets_.sprint;
+    case WalkSet::Positioning:
+      return sets_.positioning;
+    default:
+      return sets_.goToTarget;
+  }
+}
+
+WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionRequest& request) const {
+  if (request.set != WalkSet::Automatic) return request.set;
+  if (request.kind == MotionRequest::Kind::Stand) return set_;
+  if (selection_.usePositioning && world.ball.known &&
+      world.ball.p_RB.norm() < selection_.positioningDistance) {
+    return WalkSet::Positioning;
+  }
+  if (selection_.useSprint && request.kind == MotionRequest::Kind::WalkTo) {
+    const Vector2& target = request.target.translation;
+    const double angle = std::atan2(target.y(), target.x());
+    if (target.norm() > selection_.sprintDistance && std::abs(angle) < selection_.sprintAngle) {
+      return WalkSet::Sprint;
+    }
+  }
+  return WalkSet::GoToTarget;
+}
+
+// Walks and turns at the same time, always (AAMAS 2012, section 4.2): straight at the target as fast as the
+// set allows in that direction, turning towards it when far, to the target's heading when near.
+Pose2 WalkControl::speedTowards(const MotionRequest& request) const {
+  const WalkParameters& p = active_;
+  const Vector2& target = request.target.translation;
+  const double distance = target.norm();
+  const double bearing = distance > 1e-6 ? std::atan2(target.y(), target.x()) : 0.0;
+  const double turnDistance = std::max(p.targetTurnDistance, 1e-6);
+  const double far = std::clamp(2.0 * distance / turnDistance - 1.0, 0.0, 1.0);
+  const double angle =
+      wrapAngle(request.target.rotation + far * wrapAngle(bearing - request.target.rotation));
+
+  const double stepTime = engine_.stepTime(p);
+  Pose2 speed;
+  speed.rotation =
+      std::clamp(p.targetTurnGain * angle, -p.maxStepTheta / stepTime, p.maxStepTheta / stepTime);
+  if (distance < 1e-6) return speed;
+  const Vector2 direction = target / distance;
+  const double maxX = direction.x() >= 0.0 ? p.maxStepX : p.maxStepXBack;
+  const double share =
+      std::hypot(direction.x() / std::max(maxX, 1e-6), direction.y() / std::max(p.maxStepY, 1e-6));
+  double most = 1.0 / (share * stepTime);
+  if (request.stopAtTarget) most = std::min(most, p.targetGain * distance);
+  speed.translation = most * direction;
+  return speed;
+}
+
+}  // namespace nonet::motion
