@@ -12,8 +12,7 @@ Session::Session(const SessionOptions& options)
 Session::~Session() = default;
 
 std::string_view Session::begin() {
-  outgoing_.clear();
-  outgoing_.scene.emplace().robotType = options_.agent.robotType;
+  outgoing_ = agent_->hello();
   return write();
 }
 
@@ -22,34 +21,30 @@ void Session::receive(std::string_view message) {
   countGap();
   ++counts_.messages;
   counts_.unknownTokens += percept_.unknownTokens;
-  if (pending_ > 0) ++counts_.passedOver;
-  ++pending_;
-  if (stage_ == Stage::Connecting) stage_ = Stage::Introducing;
   watchAcceptance();
-
-  stepped_ = introduced_;
-  if (!introduced_) return;
-  // A newer answer replaces an older one that was never sent, but for what is said only once.
-  const protocol::Effectors older = outgoing_;
-  outgoing_ = agent_->step(percept_);
-  if (pending_ < 2) return;
-  if (!outgoing_.beam) outgoing_.beam = older.beam;
-  if (!outgoing_.say) outgoing_.say = older.say;
-  outgoing_.pass = outgoing_.pass || older.pass;
+  if (pending_ == 0) {
+    outgoing_ = agent_->step(percept_);
+  } else {
+    ++counts_.passedOver;
+    const protocol::Effectors older = outgoing_;
+    outgoing_ = agent_->step(percept_);
+    keepOnce(older);
+  }
+  ++pending_;
 }
 
 std::string_view Session::answer() {
   if (pending_ == 0) return {};
   pending_ = 0;
   ++counts_.answers;
-  if (!introduced_) {
-    introduced_ = true;
-    outgoing_.clear();
-    protocol::Effectors::Init& init = outgoing_.init.emplace();
-    init.unum = options_.agent.unum;
-    init.team.assign(options_.agent.team);
-  }
   return write();
+}
+
+void Session::keepOnce(const protocol::Effectors& older) {
+  if (!outgoing_.init) outgoing_.init = older.init;
+  if (!outgoing_.beam) outgoing_.beam = older.beam;
+  if (!outgoing_.say) outgoing_.say = older.say;
+  outgoing_.pass = outgoing_.pass || older.pass;
 }
 
 void Session::countGap() {
@@ -62,10 +57,9 @@ void Session::countGap() {
 }
 
 void Session::watchAcceptance() {
+  if (stage_ == Stage::Connecting) stage_ = Stage::Introducing;
   if (percept_.game.unum || percept_.game.side) stage_ = Stage::Playing;
-  if (stage_ == Stage::Introducing && introduced_ && ++messagesSinceInit_ > kRefusalPatience) {
-    stage_ = Stage::Refused;
-  }
+  if (stage_ == Stage::Introducing && counts_.messages > kRefusalPatience) stage_ = Stage::Refused;
 }
 
 std::string_view Session::write() {

@@ -55,8 +55,6 @@ class Session {
   /// The last message received.
   const protocol::Percept& percept() const { return percept_; }
   const agent::Agent& agent() const { return *agent_; }
-  /// The agent was stepped in the last receive().
-  bool stepped() const { return stepped_; }
 
   /// Messages without team and number after init that mean a refusal: the server's answer takes two
   /// (facts 1.3), one second of them leaves room for late ones.
@@ -65,6 +63,7 @@ class Session {
  private:
   void countGap();
   void watchAcceptance();
+  void keepOnce(const protocol::Effectors& older);
   std::string_view write();
 
   SessionOptions options_;
@@ -74,10 +73,7 @@ class Session {
   SessionCounts counts_;
   std::string text_;
   Stage stage_ = Stage::Connecting;
-  bool introduced_ = false;  // init was sent
-  bool stepped_ = false;
-  int pending_ = 0;  // messages since the last answer
-  int messagesSinceInit_ = 0;
+  int pending_ = 0;        // messages since the last answer
   double lastTime_ = 0.0;  // server time of the last message, s
 };
 

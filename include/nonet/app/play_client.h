@@ -1,0 +1,36 @@
+// The `play` command without its command line: one agent, one TCP connection, one log file.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "nonet/lab/session.h"
+#include "nonet/protocol/log_file.h"
+
+namespace nonet::app {
+
+/// Exit codes of `nonet play`.
+enum class PlayExit : int {
+  Stopped = 0,   // by SIGINT or SIGTERM
+  Error = 1,     // what the server sent makes no sense, or the log cannot be written
+  NoServer = 2,  // nobody listened within the time to wait
+  ServerGone = 3,
+  Refused = 4,  // the server did not take us into a team
+};
+
+struct PlayOptions {
+  std::string host = "127.0.0.1";
+  int port = 3100;
+  lab::SessionOptions session;
+  std::string record;  // log file; empty: none
+  protocol::LogHeader recordHeader;
+  double wait = 30.0;    // s until a server must have answered
+  double stagger = 0.0;  // s per uniform number before connecting: robots born in one cycle overlap
+  bool quiet = false;    // only errors
+};
+
+/// Plays until the server goes, refuses, or a signal comes. Says what happens on standard output, errors on
+/// standard error.
+PlayExit play(const PlayOptions& options);
+
+}  // namespace nonet::app

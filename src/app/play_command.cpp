@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include "nonet/app/commands.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/app/play_client.h"
+#include "nonet/lab/agent_setup.h"
+
+namespace nonet::app {
+namespace {
+
+struct PlayArguments {
+  lab::AgentChoice choice;
+  PlayOptions play;
+  std::string sync = "auto";
+  std::vector<double> start;  // x, y in metres; heading 0
+  std::string challenge;
+};
+
+int runPlay(PlayArguments& arguments) {
+  if (!arguments.start.empty()) {
+    arguments.choice.startPose = Pose2(arguments.start.at(0), arguments.start.at(1), 0.0);
+  }
+  PlayOptions& play = arguments.play;
+  play.session.agent = lab::makeAgentConfig(arguments.choice, dataFolder());
+  // A server in real time ignores (syn), so there is nothing to find out: auto means on.
+  play.session.sync = arguments.sync != "off";
+  play.recordHeader = lab::logHeader(play.session.agent, NONET_VERSION);
+  return static_cast<int>(nonet::app::play(play));
+}
+
+}  // namespace
+
+void addPlayCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("play", "One agent plays on a server");
+  auto arguments = std::make_shared<PlayArguments>();
+  lab::AgentChoice& choice = arguments->choice;
+  PlayOptions& play = arguments->play;
+  command->add_option("--host", play.host, "Host of the server")->capture_default_str();
+  command->add_option("--port", play.port, "Port for agents")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 65535));
+  command->add_option("--unum", choice.unum, "Uniform number, 0: the server chooses")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 11));
+  command->add_option("--team", choice.team, "Name of the team")->capture_default_str();
+  command->add_option("--type", choice.robotType, "Robot type")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 4));
+  command->add_option("--record", play.record, "Write a log for `nonet replay` (compressed with zstd)");
+  command
+      ->add_option("--sync", arguments->sync,
+                   "End answers with (syn), for lock-step servers: auto and on do, off does not")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "on", "off"}));
+  command->add_option("--params", choice.parameterFiles, "Parameter files, overlaid in this order")
+      ->check(CLI::ExistingFile);
+  command->add_option("--seed", choice.seed, "Seed of the agent's random numbers")->capture_default_str();
+  command->add_option("--wait", play.wait, "Seconds to wait for a server")->capture_default_str();
+  command
+      ->add_option("--stagger", play.stagger,
+                   "Seconds per uniform number to wait before connecting: robots born at once overlap")
+      ->capture_default_str();
+  command->add_option("--start", arguments->start, "Beam to X,Y instead of the kick-off place")
+      ->delimiter(',')
+      ->expected(2);
+  command->add_option("--challenge", arguments->challenge, "Name of a technical challenge");
+  command->add_flag("--quiet", play.quiet, "Say only what went wrong");
+  command->footer(
+      "Exit codes: 0 stopped by a signal, 1 error, 2 no server, 3 the server is gone, 4 refused by the "
+      "server.");
+  command->callback([arguments, &exitCode] { exitCode = runPlay(*arguments); });
+}
+
+}  // namespace nonet::app
