@@ -88,7 +88,8 @@ class World {
   void setJointSpeed(RobotHandle robot, model::JointId joint, float radPerSecond);
   void freezeJoint(RobotHandle robot, model::JointId joint, bool frozen);
   bool isFrozen(RobotHandle robot, model::JointId joint) const;
-  float jointAngle(RobotHandle robot, model::JointId joint) const;  // rad, as the perceptor computes it
+  float jointAngle(RobotHandle robot, model::JointId joint) const;         // rad
+  float jointAngleDegrees(RobotHandle robot, model::JointId joint) const;  // as the perceptor computes it
 
   /// Rigid move: torso to `position`, rotation and joints kept, all velocities 0. Sleeping bodies stay
   /// asleep.
@@ -96,7 +97,7 @@ class World {
   /// As above, and the torso exactly upright with this yaw in degrees (0 = facing +y).
   void placeRobot(RobotHandle robot, const Vector3f& position, float yawDegrees);
 
-  /// Scene poses after the last step (or move).
+  /// Scene poses after the last step. Moves show only after the next step, as in the server's scene tree.
   const ScenePose& bodyPose(RobotHandle robot, model::BodyId body) const;
   Vector3f bodyVelocity(RobotHandle robot, model::BodyId body) const;  // m/s, world
   Vector3f gyro(RobotHandle robot) const;           // rad/s, torso axes, after the last step
@@ -106,7 +107,8 @@ class World {
 
   // -- ball
   // -----------------------------------------------------------------------------------------------------
-  Vector3f ballPosition() const;
+  Vector3f ballPosition() const;      // now, moves included
+  const ScenePose& ballPose() const;  // scene pose after the last step
   Vector3f ballVelocity() const;
   Vector3f ballAngularVelocity() const;
   void setBallPosition(const Vector3f& position);  // keeps velocity and spin, wakes it

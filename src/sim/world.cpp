@@ -1,0 +1,212 @@
+#include "nonet/sim/world.h"
+
+#include <cstring>
+#include <mutex>
+
+#include "sim/world_implementation.h"
+#include "sim/world_scene.h"
+
+namespace nonet::sim {
+
+namespace {
+
+// ODE wants one global initialisation and per-thread data for each thread that collides or steps.
+void prepareThread() {
+  static std::once_flag initialised;
+  std::call_once(initialised, [] { dInitODE2(0); });
+  thread_local const bool prepared = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
+  static_cast<void>(prepared);
+}
+
+void wake(BodyNode& node) {
+  dBodyEnable(node.body);
+  node.stepsUntilSleep = kStepsUntilSleep;
+}
+
+void stop(dBodyID body) {
+  dBodySetLinearVel(body, 0.0, 0.0, 0.0);
+  dBodySetAngularVel(body, 0.0, 0.0, 0.0);
+}
+
+}  // namespace
+
+World::Implementation::Implementation(const WorldSettings& worldSettings) : settings(worldSettings) {
+  prepareThread();
+  world = dWorldCreate();
+  // Server facts 3.1. The values pass through 32-bit floats.
+  dWorldSetGravity(world, 0.0, 0.0, -9.81F);
+  dWorldSetCFM(world, 0.00001F);
+  dWorldSetAutoDisableFlag(world, 1);
+  dWorldSetContactSurfaceLayer(world, 0.001F);
+  dWorldSetQuickStepNumIterations(world, settings.quickIterations);
+  space = dHashSpaceCreate(nullptr);
+  dSpaceSetCleanup(space, 0);
+  contactJoints = dJointGroupCreate(0);
+  buildField();
+  buildBall();
+}
+
+World::Implementation::~Implementation() {
+  for (const auto& robot : robots) destroyRobot(*robot);
+  dJointGroupDestroy(contactJoints);
+  dGeomDestroy(ball.geom);
+  for (dGeomID geom : fixtures) dGeomDestroy(geom);
+  dSpaceDestroy(leftGoal);
+  dSpaceDestroy(rightGoal);
+  dSpaceDestroy(space);
+  dWorldDestroy(world);
+}
+
+World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>(settings)) {}
+World::~World() = default;
+
+const WorldSettings& World::settings() const {
+  return implementation_->settings;
+}
+double World::time() const {
+  return static_cast<double>(implementation_->cycles) * kCycleTime;
+}
+
+RobotHandle World::addRobot(int type) {
+  return implementation_->addRobot(type);
+}
+void World::removeRobot(RobotHandle robot) {
+  implementation_->removeRobot(robot);
+}
+std::span<const RobotHandle> World::robots() const {
+  return implementation_->handles;
+}
+int World::robotType(RobotHandle robot) const {
+  return implementation_->robot(robot).type;
+}
+
+// Server facts 2.4. Angles are compared in degrees, as there.
+void World::setJointSpeed(RobotHandle robot, model::JointId joint, float radPerSecond) {
+  JointNode* node = implementation_->robot(robot).joint(joint);
+  if (node == nullptr) return;
+  float speed = radPerSecond > 0.0F ? (radPerSecond < node->maxSpeed ? radPerSecond : node->maxSpeed)
+                                    : (radPerSecond > -node->maxSpeed ? radPerSecond : -node->maxSpeed);
+  if (node->frozen) speed = 0.0F;
+  const float angle = jointAngleDegrees(robot, joint);
+  if (angle < node->highStop * 180.0 / M_PI && angle > node->lowStop * 180.0 / M_PI) {
+    dJointSetHingeParam(node->joint, dParamVel, speed);
+  }
+  if (radPerSecond != 0.0F && dBodyIsEnabled(node->child) == 0)
+    wake(implementation_->robot(robot).body(node->childId));
+}
+
+void World::freezeJoint(RobotHandle robot, model::JointId joint, bool frozen) {
+  if (JointNode* node = implementation_->robot(robot).joint(joint)) node->frozen = frozen;
+}
+bool World::isFrozen(RobotHandle robot, model::JointId joint) const {
+  const JointNode* node = implementation_->robot(robot).joint(joint);
+  return node != nullptr && node->frozen;
+}
+float World::jointAngleDegrees(RobotHandle robot, model::JointId joint) const {
+  const JointNode* node = implementation_->robot(robot).joint(joint);
+  if (node == nullptr) return 0.0F;
+  return static_cast<float>(dJointGetHingeAngle(node->joint) * (180.0 / M_PI));
+}
+float World::jointAngle(RobotHandle robot, model::JointId joint) const {
+  return scene::toRadians(jointAngleDegrees(robot, joint));
+}
+
+void World::moveRobot(RobotHandle robot, const Vector3f& position) {
+  RobotNode& node = implementation_->robot(robot);
+  const Vector3f torso = node.bodies.front().pose.position;  // before any move of this cycle (facts 4.8)
+  for (BodyNode& body : node.bodies) {
+    const Vector3f target = position + (scene::fromOde(dBodyGetPosition(body.body)) - torso);
+    dBodySetPosition(body.body, target.x(), target.y(), target.z());
+    stop(body.body);
+    body.moved = true;
+  }
+}
+
+void World::placeRobot(RobotHandle robot, const Vector3f& position, float yawDegrees) {
+  RobotNode& node = implementation_->robot(robot);
+  const dBodyID torso = node.bodies.front().body;
+  const Vector3f origin = scene::fromOde(dBodyGetPosition(torso));
+  const Eigen::Matrix3f back = scene::rotationFromOde(dBodyGetRotation(torso)).transpose();
+  const Eigen::Matrix3f turn = scene::multiply(scene::rotationZ(scene::toRadians(yawDegrees)), back);
+  for (BodyNode& body : node.bodies) {
+    const Vector3f place = scene::fromOde(dBodyGetPosition(body.body));
+    const Eigen::Matrix3f rotation =
+        scene::multiply(turn, scene::rotationFromOde(dBodyGetRotation(body.body)));
+    const Vector3f target = position + scene::rotate(turn, place - origin);
+    dBodySetPosition(body.body, target.x(), target.y(), target.z());
+    stop(body.body);
+    body.moved = true;
+    dMatrix3 matrix;
+    scene::toOde(rotation, matrix);
+    dBodySetRotation(body.body, matrix);
+  }
+}
+
+const ScenePose& World::bodyPose(RobotHandle robot, model::BodyId body) const {
+  return implementation_->robot(robot).body(body).pose;
+}
+Vector3f World::bodyVelocity(RobotHandle robot, model::BodyId body) const {
+  return scene::fromOde(dBodyGetLinearVel(implementation_->robot(robot).body(body).body));
+}
+Vector3f World::gyro(RobotHandle robot) const {
+  const dBodyID torso = implementation_->robot(robot).bodies.front().body;
+  return scene::inverseRotate(scene::rotationFromOde(dBodyGetRotation(torso)),
+                              scene::fromOde(dBodyGetAngularVel(torso)));
+}
+Vector3f World::accelerometer(RobotHandle robot) const {
+  return implementation_->robot(robot).acceleration;
+}
+std::optional<FootContact> World::footContact(RobotHandle robot, model::BodyId foot) const {
+  const RobotNode& node = implementation_->robot(robot);
+  for (const FootSensor& sensor : node.feet) {
+    if (sensor.body == foot && sensor.inContact) return sensor.last;
+  }
+  return std::nullopt;
+}
+
+Vector3f World::ballPosition() const {
+  return scene::fromOde(dBodyGetPosition(implementation_->ball.body));
+}
+Vector3f World::ballVelocity() const {
+  return scene::fromOde(dBodyGetLinearVel(implementation_->ball.body));
+}
+Vector3f World::ballAngularVelocity() const {
+  return scene::fromOde(dBodyGetAngularVel(implementation_->ball.body));
+}
+const ScenePose& World::ballPose() const {
+  return implementation_->ball.pose;
+}
+void World::setBallPosition(const Vector3f& position) {
+  BodyNode& ball = implementation_->ball;
+  dBodySetPosition(ball.body, position.x(), position.y(), position.z());
+  ball.moved = true;
+  wake(ball);
+}
+void World::setBallVelocity(const Vector3f& velocity) {
+  dBodySetLinearVel(implementation_->ball.body, velocity.x(), velocity.y(), velocity.z());
+  dBodySetAngularVel(implementation_->ball.body, 0.0, 0.0, 0.0);
+  wake(implementation_->ball);
+}
+World::Goal World::ballInGoal() const {
+  return implementation_->ballInGoal;
+}
+
+void World::prePhysics() {
+  implementation_->prePhysics();
+}
+void World::stepPhysics() {
+  prepareThread();
+  implementation_->stepPhysics();
+}
+std::span<const ContactPair> World::contacts() const {
+  return implementation_->contacts;
+}
+
+std::vector<std::uint8_t> World::save() const {
+  return implementation_->save();
+}
+void World::restore(std::span<const std::uint8_t> state) {
+  implementation_->restore(state);
+}
+
+}  // namespace nonet::sim

@@ -1,0 +1,152 @@
+// What a World holds: the ODE objects with what the server's scene tree remembers of them.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include <ode/ode.h>
+
+#include "nonet/sim/world.h"
+
+namespace nonet::sim {
+
+/// How a collider takes part in contacts (server facts 3.2). Values are 32-bit as in the server.
+struct Surface {
+  bool contacts = true;  // false: recorded only (goal trigger)
+  bool bounces = false;
+  bool softErp = false;
+  bool softCfm = false;
+  bool slips = false;
+  float bounce = 0.0F;
+  float bounceVelocity = 0.0F;
+  float erp = 0.0F;
+  float cfm = 0.0F;
+  float slip = 0.0F;
+};
+
+/// What ODE's geom data points to.
+struct Collider {
+  ContactParty party;
+  const Surface* surface = nullptr;
+  World::Goal trigger = World::Goal::None;
+  int footSensor = -1;  // index of the robot's foot sensor that hears about contacts of this geom
+};
+
+/// ODE's default number of idle steps before a body falls asleep.
+inline constexpr int kStepsUntilSleep = 10;
+
+struct BodyNode {
+  model::BodyId id = model::BodyId::Torso;
+  dBodyID body = nullptr;
+  dGeomID geom = nullptr;  // null: no collider
+  ScenePose pose;
+  Collider collider;
+  int stepsUntilSleep = kStepsUntilSleep;  // ODE's counter, followed here because ODE does not show it
+  bool moved = true;                       // the geom is marked as moved since the last collision
+};
+
+struct JointNode {
+  model::JointId id = model::JointId::Head1;
+  dJointID joint = nullptr;
+  dBodyID child = nullptr;
+  model::BodyId childId = model::BodyId::Neck;
+  float maxSpeed = 0.0F;
+  float lowStop = 0.0F;   // rad
+  float highStop = 0.0F;  // rad
+  bool frozen = false;
+};
+
+/// Force resistance perceptor (server facts 2.6).
+struct FootSensor {
+  struct Touch {
+    Vector3f position;
+    dJointFeedback* feedback = nullptr;
+  };
+  model::BodyId body = model::BodyId::RFoot;
+  std::vector<Touch> touches;  // of this step, in order of creation
+  FootContact last;
+  bool inContact = false;
+};
+
+struct RobotNode {
+  RobotHandle handle = kNoRobot;
+  int type = 0;
+  dSpaceID space = nullptr;
+  std::vector<BodyNode> bodies;   // in creation order; never resized after building (geoms point into it)
+  std::vector<JointNode> joints;  // in creation order
+  std::array<int, model::kBodyCount> bodyIndex{};
+  std::array<int, model::kJointCount> jointIndex{};
+  std::vector<FootSensor> feet;
+  Vector3f lastVelocity = Vector3f::Zero();
+  Vector3f acceleration = Vector3f::Zero();
+
+  BodyNode& body(model::BodyId id) { return bodies[static_cast<std::size_t>(bodyIndex[index(id)])]; }
+  const BodyNode& body(model::BodyId id) const {
+    return bodies[static_cast<std::size_t>(bodyIndex[index(id)])];
+  }
+  JointNode* joint(model::JointId id) {
+    const int i = jointIndex[index(id)];
+    return i < 0 ? nullptr : &joints[static_cast<std::size_t>(i)];
+  }
+};
+
+struct World::Implementation {
+  explicit Implementation(const WorldSettings& settings);
+  ~Implementation();
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  // world_build.cpp
+  void buildField();
+  void buildGoal(Goal side);
+  void addBox(dSpaceID space, const ScenePose& pose, const Vector3f& size, const Surface& surface,
+              Goal trigger = Goal::None);
+  void buildBall();
+  RobotHandle addRobot(int type);
+  void addRobotAs(RobotHandle handle, int type);
+  void removeRobot(RobotHandle handle);
+  void destroyRobot(RobotNode& robot);
+  RobotNode& robot(RobotHandle handle);
+
+  // world_step.cpp
+  void prePhysics();
+  void stepPhysics();
+  void collideGeoms(dGeomID first, dGeomID second);
+  void addContacts(const Collider& first, const Collider& second, dGeomID firstGeom, dGeomID secondGeom,
+                   int count);
+  void followSleep(BodyNode& node) const;
+  void copyPoses();
+  void readFootSensors(RobotNode& robot);
+
+  // world_state.cpp
+  std::vector<std::uint8_t> save() const;
+  void restore(std::span<const std::uint8_t> state);
+  int memberNumber(dGeomID geom) const;
+  dGeomID memberGeom(int number);
+
+  WorldSettings settings;
+  dWorldID world = nullptr;
+  dSpaceID space = nullptr;
+  dSpaceID leftGoal = nullptr;
+  dSpaceID rightGoal = nullptr;
+  dJointGroupID contactJoints = nullptr;
+  std::vector<dGeomID> fixtures;  // ground, goals, walls
+  std::vector<std::unique_ptr<Collider>> fixtureColliders;
+  bool fixturesMoved = true;
+  BodyNode ball;
+  std::vector<std::unique_ptr<RobotNode>> robots;  // in order of creation
+  std::vector<RobotHandle> handles;                // the same order
+  RobotHandle nextHandle = 0;
+  std::uint64_t cycles = 0;
+  std::vector<ContactPair> contacts;
+  Goal ballInGoal = Goal::None;
+  std::array<dContact, 4> contactBuffer{};
+  std::deque<dJointFeedback> feedback;  // a deque: ODE keeps pointers to the elements during a step
+  std::size_t feedbackUsed = 0;
+};
+
+}  // namespace nonet::sim

@@ -1,0 +1,199 @@
+// One cycle of the physics: drag and sensor sampling, collision, ODE's step, poses back to the scene.
+#include <algorithm>
+
+#include "sim/world_implementation.h"
+#include "sim/world_scene.h"
+
+namespace nonet::sim {
+
+namespace {
+
+constexpr float kStep = 0.02F;  // s; 32-bit as the server passes it to ODE
+constexpr float kLinearDrag = 0.01F;
+constexpr float kRobotAngularDrag = 0.01F;
+constexpr float kBallAngularDrag = 0.00005F;
+const Vector3f kGravityVector{0.0F, 0.0F, -9.81F};
+
+Vector3f resistance(const Vector3f& velocity, float drag) {
+  return (velocity * drag) * -1.0F;
+}
+
+// Server facts 2.5.
+void applyDrag(dBodyID body, float angularDrag) {
+  const Vector3f force = resistance(scene::fromOde(dBodyGetLinearVel(body)), kLinearDrag);
+  dBodyAddForce(body, force.x(), force.y(), force.z());
+  const Vector3f torque = resistance(scene::fromOde(dBodyGetAngularVel(body)), angularDrag);
+  dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
+}
+
+// Server facts 2.6, accelerometer.
+void sampleAcceleration(RobotNode& robot) {
+  const dBodyID torso = robot.bodies.front().body;
+  const Vector3f velocity = scene::fromOde(dBodyGetLinearVel(torso));
+  const Vector3f change = (velocity - robot.lastVelocity) / kStep - kGravityVector;
+  robot.lastVelocity = velocity;
+  robot.acceleration = scene::inverseRotate(scene::rotationFromOde(dBodyGetRotation(torso)), change);
+}
+
+// Server facts 3.2: the mean where both sides define a property, else the value of the one that does.
+float mixed(bool first, float a, bool second, float b) {
+  if (first && second) return (a + b) / 2.0F;
+  return first ? a : b;
+}
+
+void mixSurfaces(const Surface& a, const Surface& b, dSurfaceParameters& surface) {
+  surface.mode = 0;
+  surface.mu = dInfinity;
+  if (a.softCfm || b.softCfm) {
+    surface.soft_cfm = mixed(a.softCfm, a.cfm, b.softCfm, b.cfm);
+    surface.mode |= dContactSoftCFM;
+  }
+  if (a.softErp || b.softErp) {
+    surface.soft_erp = mixed(a.softErp, a.erp, b.softErp, b.erp);
+    surface.mode |= dContactSoftERP;
+  }
+  if (a.bounces || b.bounces) {
+    surface.bounce = mixed(a.bounces, a.bounce, b.bounces, b.bounce);
+    surface.bounce_vel = mixed(a.bounces, a.bounceVelocity, b.bounces, b.bounceVelocity);
+    surface.mode |= dContactBounce;
+  }
+  if (a.slips || b.slips) {
+    surface.slip1 = mixed(a.slips, a.slip, b.slips, b.slip);
+    surface.slip2 = surface.slip1;
+    surface.mode |= dContactSlip1 | dContactSlip2;
+  }
+}
+
+bool involves(const ContactPair& pair, ContactParty::Kind kind) {
+  return pair.first.kind == kind || pair.second.kind == kind;
+}
+
+}  // namespace
+
+void World::Implementation::prePhysics() {
+  applyDrag(ball.body, kBallAngularDrag);
+  for (const auto& robot : robots) {
+    for (const BodyNode& body : robot->bodies) applyDrag(body.body, kRobotAngularDrag);
+    sampleAcceleration(*robot);
+    for (FootSensor& foot : robot->feet) foot.touches.clear();
+  }
+}
+
+void World::Implementation::collideGeoms(dGeomID first, dGeomID second) {
+  if (dGeomIsSpace(first) != 0 || dGeomIsSpace(second) != 0) {
+    // The spaces inside are goals (fixed parts only) and robots (parts of one robot do not collide): nothing
+    // to do within them.
+    dSpaceCollide2(first, second, this, [](void* self, dGeomID a, dGeomID b) {
+      static_cast<Implementation*>(self)->collideGeoms(a, b);
+    });
+    return;
+  }
+  if (dGeomGetBody(first) == nullptr && dGeomGetBody(second) == nullptr) return;
+  const auto& firstCollider = *static_cast<const Collider*>(dGeomGetData(first));
+  const auto& secondCollider = *static_cast<const Collider*>(dGeomGetData(second));
+  const int count = dCollide(first, second, static_cast<int>(contactBuffer.size()), &contactBuffer[0].geom,
+                             sizeof(dContact));
+  if (count > 0) addContacts(firstCollider, secondCollider, first, second, count);
+}
+
+void World::Implementation::addContacts(const Collider& first, const Collider& second, dGeomID firstGeom,
+                                        dGeomID secondGeom, int count) {
+  ContactPair pair{first.party, second.party, count, Vector3f::Zero()};
+  for (int i = 0; i < count; ++i) pair.meanPosition += scene::fromOde(contactBuffer[i].geom.pos);
+  pair.meanPosition /= static_cast<float>(count);
+  const Goal trigger = first.trigger != Goal::None ? first.trigger : second.trigger;
+  if (trigger != Goal::None) {
+    if (involves(pair, ContactParty::Kind::Ball)) ballInGoal = trigger;
+    return;
+  }
+  contacts.push_back(pair);
+  for (int i = 0; i < count; ++i) {
+    dContact& contact = contactBuffer[i];
+    mixSurfaces(*first.surface, *second.surface, contact.surface);
+    const dJointID joint = dJointCreateContact(world, contactJoints, &contact);
+    dJointAttach(joint, dGeomGetBody(firstGeom), dGeomGetBody(secondGeom));
+    if (first.footSensor < 0) continue;
+    // Server facts 2.6: only the first geom of a pair hears about the force.
+    if (feedbackUsed == feedback.size()) feedback.emplace_back();
+    dJointFeedback& result = feedback[feedbackUsed++];
+    result = dJointFeedback{};
+    dJointSetFeedback(joint, &result);
+    robot(first.party.robot)
+        .feet[static_cast<std::size_t>(first.footSensor)]
+        .touches.push_back({scene::fromOde(contact.geom.pos), &result});
+  }
+}
+
+void World::Implementation::stepPhysics() {
+  contacts.clear();
+  ballInGoal = Goal::None;
+  feedbackUsed = 0;
+  dSpaceCollide(space, this, [](void* self, dGeomID a, dGeomID b) {
+    static_cast<Implementation*>(self)->collideGeoms(a, b);
+  });
+  fixturesMoved = false;
+  followSleep(ball);
+  for (const auto& robot : robots) {
+    for (BodyNode& body : robot->bodies) followSleep(body);
+  }
+  if (settings.solver == WorldSettings::Solver::Exact) {
+    dWorldStep(world, kStep);
+  } else {
+    dWorldQuickStep(world, kStep);
+  }
+  copyPoses();
+  for (const auto& robot : robots) readFootSensors(*robot);
+  dJointGroupEmpty(contactJoints);
+  ++cycles;
+}
+
+// ODE's rule for idle bodies, kept beside it for World::save(): a body that is attached to something counts
+// down while both its speeds are below 0.01, and starts again otherwise.
+void World::Implementation::followSleep(BodyNode& node) const {
+  constexpr dReal kThreshold = dReal(0.01) * dReal(0.01);
+  if (dBodyGetNumJoints(node.body) == 0 || dBodyIsEnabled(node.body) == 0) return;
+  const dReal* v = dBodyGetLinearVel(node.body);
+  const dReal* w = dBodyGetAngularVel(node.body);
+  const bool idle = v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= kThreshold &&
+                    w[0] * w[0] + w[1] * w[1] + w[2] * w[2] <= kThreshold;
+  node.stepsUntilSleep = idle ? std::max(0, node.stepsUntilSleep - 1) : kStepsUntilSleep;
+}
+
+void World::Implementation::copyPoses() {
+  const auto copy = [](BodyNode& node) {
+    node.moved = dBodyIsEnabled(node.body) != 0;  // what was stepped
+    node.pose.rotation = scene::rotationFromOde(dBodyGetRotation(node.body));
+    node.pose.position = scene::fromOde(dBodyGetPosition(node.body));
+  };
+  copy(ball);
+  for (const auto& robot : robots) {
+    for (BodyNode& body : robot->bodies) copy(body);
+  }
+}
+
+// Server facts 2.6, FRP. The newest contact is summed first.
+void World::Implementation::readFootSensors(RobotNode& robot) {
+  for (FootSensor& foot : robot.feet) {
+    foot.inContact = !foot.touches.empty();
+    if (!foot.inContact) {
+      foot.last = FootContact{};
+      continue;
+    }
+    Vector3f force = Vector3f::Zero();
+    Vector3f center = Vector3f::Zero();
+    float sum = 0.0F;
+    for (auto touch = foot.touches.rbegin(); touch != foot.touches.rend(); ++touch) {
+      const Vector3f part = scene::fromOde(touch->feedback->f1);
+      const float size = scene::length(part);
+      force += part;
+      center += touch->position * size;
+      sum += size;
+    }
+    if (sum == 0.0F) continue;  // asleep: what was last reported is reported again
+    const ScenePose& pose = robot.body(foot.body).pose;
+    foot.last.center = scene::inverseTransform(pose, center / sum);
+    foot.last.force = scene::inverseRotate(pose.rotation, force);
+  }
+}
+
+}  // namespace nonet::sim
