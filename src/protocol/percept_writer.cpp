@@ -69,32 +69,35 @@ class PerceptWriter {
     }
   }
 
-  void integerItem(std::string_view name, int value) {
-    text_ += name;
-    appendInteger(text_, value);
-    text_ += ") ";
+  // " (NAME VALUE)"
+  void integerItem(std::string_view name, std::optional<int> value) {
+    if (value) {
+      text_ += " (";
+      text_ += name;
+      text_ += ' ';
+      appendInteger(text_, *value);
+      text_ += ')';
+    }
   }
 
   void gameState(const GameStatus& game) {
-    text_ += "(GS ";
-    if (game.unum) {
-      integerItem("(unum ", *game.unum);
-    }
+    text_ += "(GS";
+    integerItem("unum", game.unum);
     if (game.side) {
-      text_ += *game.side == TeamSide::Left ? "(team left) " : "(team right) ";
+      text_ += *game.side == TeamSide::Left ? " (team left)" : " (team right)";
     }
-    if (game.scoreLeft) {
-      integerItem("(sl ", *game.scoreLeft);
-    }
-    if (game.scoreRight) {
-      integerItem("(sr ", *game.scoreRight);
-    }
-    text_ += "(t ";
+    integerItem("sl", game.scoreLeft);
+    integerItem("sr", game.scoreRight);
+    text_ += " (t ";
     appendTwoDecimals(text_, game.time);
-    text_ += ") (pm ";
-    text_ += game.playMode == PlayMode::Unknown && !game.playModeText.empty() ? game.playModeText.view()
-                                                                              : playModeName(game.playMode);
-    text_ += "))";
+    text_ += ')';
+    const bool known = game.playMode != PlayMode::Unknown;
+    if (known || !game.playModeText.empty()) {
+      text_ += " (pm ";
+      text_ += known ? playModeName(game.playMode) : game.playModeText.view();
+      text_ += ')';
+    }
+    text_ += ')';
   }
 
   void heard(const Heard& heard) {

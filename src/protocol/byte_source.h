@@ -1,0 +1,31 @@
+// Bytes of a file, decompressed if need be: plain, gzip or zstd, told apart by the first bytes.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+namespace nonet::protocol {
+
+class ByteSource {
+ public:
+  enum class State { Whole, Truncated, Corrupt };
+
+  virtual ~ByteSource() = default;
+  /// Fills `out` with up to `size` (> 0) bytes and returns how many; 0 at the end. Throws LogError, naming
+  /// the file, if the disk cannot be read.
+  virtual std::size_t read(char* out, std::size_t size) = 0;
+  /// What the end was like, once read() has returned 0.
+  State state() const { return state_; }
+  /// What the decompressor said if the data are corrupt.
+  const std::string& detail() const { return detail_; }
+
+ protected:
+  State state_ = State::Whole;
+  std::string detail_;
+};
+
+/// Throws LogError, naming the file, if it cannot be opened or read.
+std::unique_ptr<ByteSource> openByteSource(const std::string& path);
+
+}  // namespace nonet::protocol
