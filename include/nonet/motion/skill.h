@@ -1,0 +1,108 @@
+// A skill as data: what a skills/*.skl file says after parsing. The language is described in
+// skills/README.md.
+//
+// Parameter values are already in place: every number here is final, in SI units. Angles of joints are those
+// of the left side; the right joint takes the mirrored angle.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nonet/config/parameters.h"
+#include "nonet/math/types.h"
+#include "nonet/model/joints.h"
+
+namespace nonet::motion {
+
+/// A named value that params files and the optimizer may change.
+struct SkillParameter {
+  std::string name;
+  double value = 0.0;
+  config::Unit unit = config::Unit::None;
+  std::optional<config::Range> range;  // absent: only files may change it
+};
+
+/// Joints whose angle changes sign between left and right.
+bool mirrorsSign(model::JointId joint);
+
+struct JointGoal {
+  model::JointId joint = model::JointId::Head1;
+  double angle = 0.0;  // rad, of this very joint (already mirrored for the right side)
+};
+
+/// Pose of a sole in the torso frame, or relative to the ball (curves "from ball").
+struct FootGoal {
+  model::Side side = model::Side::Left;
+  Vector3 position = Vector3::Zero();      // m
+  Vector3 rollPitchYaw = Vector3::Zero();  // rad, applied as yaw, then pitch, then roll
+};
+
+enum class Quantity : std::uint8_t { Time, Pitch, Roll, Height, BallDistance, BallX, BallY };
+
+/// Condition tree in a flat list; children are indices into the same list.
+struct ConditionNode {
+  enum class Kind : std::uint8_t {
+    Not,
+    And,
+    Or,
+    Upright,
+    Fallen,
+    FallenFront,
+    FallenBack,
+    FallenLeft,
+    FallenRight,
+    ContactLeft,
+    ContactRight,
+    Less,
+    Greater,
+  };
+  Kind kind = Kind::Upright;
+  int first = -1;
+  int second = -1;
+  Quantity quantity = Quantity::Time;
+  double value = 0.0;
+};
+
+struct Instruction {
+  enum class Kind : std::uint8_t {
+    MoveOver,   // to the goals in `value` seconds
+    MoveAt,     // to the goals at `value` rad/s; the joint with the longest way decides the end
+    Curve,      // one foot along a spline through its goals in `value` seconds
+    Wait,       // `value` seconds
+    WaitUntil,  // the condition, at most `value` seconds
+    Branch,     // to `target` if the condition does not hold
+    Jump,       // to `target`
+    Loop,       // back to `target`, `count` times in all; `slot` is the counter
+    Call,       // skill `callee` of the library
+    Stiffness,  // `value` for the joints in `joints`
+    End,
+    Fail,
+  };
+  Kind kind = Kind::End;
+  double value = 0.0;
+  std::vector<JointGoal> joints;
+  std::vector<FootGoal> feet;
+  bool fromBall = false;
+  int condition = -1;
+  int target = 0;
+  int count = 0;
+  int slot = 0;
+  std::string calleeName;
+  int callee = -1;  // filled by the library
+  bool mirrored = false;
+  int line = 0;
+  int column = 0;
+};
+
+struct Skill {
+  std::string name;
+  std::string file;
+  std::vector<SkillParameter> parameters;
+  std::vector<Instruction> program;
+  std::vector<ConditionNode> conditions;
+  int loopSlots = 0;
+};
+
+}  // namespace nonet::motion

@@ -1,0 +1,33 @@
+// The skill language: text -> skills, and a formatter that keeps comments. Grammar: skills/README.md.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nonet/motion/skill.h"
+
+namespace nonet::motion {
+
+/// "file:line:column: what is wrong".
+class SkillError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Gives the value that replaces a parameter's default, if there is one.
+using ParameterLookup =
+    std::function<std::optional<double>(std::string_view skill, std::string_view parameter)>;
+
+/// Parses one file. Throws SkillError. Calls are not resolved (the library does that).
+std::vector<Skill> parseSkills(std::string_view text, const std::string& file,
+                               const ParameterLookup& lookup = nullptr);
+
+/// The same text with normal indentation and spacing; line breaks and comments stay. Throws SkillError if the
+/// text does not parse. Formatting twice gives the same as once.
+std::string formatSkills(std::string_view text, const std::string& file);
+
+}  // namespace nonet::motion

@@ -1,0 +1,64 @@
+// Runs a skill: one instruction after the other, as many in a cycle as take no time.
+//
+// Needs: the library, the body, the ball. Gives: joint targets. Times that are no whole cycles carry over:
+// two moves of 30 ms take three cycles, so that the result changes smoothly with the numbers.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "nonet/motion/limbs.h"
+#include "nonet/motion/request.h"
+#include "nonet/motion/skill_library.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::motion {
+
+class SkillPlayer {
+ public:
+  enum class Result : std::uint8_t { Running, Finished, Failed };
+
+  SkillPlayer(const model::RobotModel& model, const SkillLibrary& library);
+
+  /// False if there is no such skill. Begins at the angles in `commanded` (what the joints were told last).
+  bool start(std::string_view name, bool mirrored, const model::JointArray& commanded);
+  void stop() { depth_ = 0; }
+  bool running() const { return depth_ > 0; }
+  double elapsed() const { return time_; }  // s since start
+
+  /// One cycle. The targets keep their last values when the skill is over.
+  Result update(const world::WorldState& world, JointTargets& targets);
+
+ private:
+  struct Frame {
+    int skill = 0;
+    int at = 0;
+    bool mirrored = false;
+    std::array<int, 8> loops{};
+  };
+  enum class Outcome : std::uint8_t { Next, Stay, Ended, Failed };
+
+  Outcome execute(const Instruction& instruction, const Skill& skill, const world::WorldState& world,
+                  double& budget, JointTargets& targets);
+  bool holds(const Skill& skill, int node, bool mirrored, const world::WorldState& world) const;
+  double quantity(Quantity quantity, bool mirrored, const world::WorldState& world) const;
+  void begin(const Instruction& instruction, bool mirrored, const world::WorldState& world,
+             const JointTargets& targets);
+  void place(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
+  void placeFoot(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
+  Frame& top() { return frames_[static_cast<std::size_t>(depth_ - 1)]; }
+
+  const model::RobotModel* model_;
+  const SkillLibrary* library_;
+  std::array<Frame, SkillLibrary::kDeepestCall + 1> frames_{};
+  int depth_ = 0;
+  double time_ = 0.0;           // since the start of the outermost skill, s
+  bool begun_ = false;          // the present instruction has begun
+  double inInstruction_ = 0.0;  // s
+  double duration_ = 0.0;       // of the present instruction, s
+  model::JointArray from_{};    // angles at its begin
+  FootPoses feetFrom_{};        // sole poses at its begin
+  Vector3 p_RBall_ = Vector3::Zero();
+};
+
+}  // namespace nonet::motion

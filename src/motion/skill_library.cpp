@@ -1,0 +1,119 @@
+#include "nonet/motion/skill_library.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "nonet/motion/skill_language.h"
+
+namespace nonet::motion {
+
+namespace {
+
+std::string readFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw SkillError(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+[[noreturn]] void failIn(const Skill& skill, const Instruction& at, const std::string& message) {
+  throw SkillError(fmt::format("{}:{}:{}: {}", skill.file, at.line, at.column, message));
+}
+
+std::vector<Skill> readFolder(const std::string& folder, const SkillParameters& parameters) {
+  std::vector<Skill> skills;
+  const auto lookup = [&](std::string_view skill, std::string_view parameter) {
+    return parameters.find(skill, parameter);
+  };
+  for (const std::string& path : skillFiles(folder)) {
+    for (Skill& skill : parseSkills(readFile(path), path, lookup)) skills.push_back(std::move(skill));
+  }
+  return skills;
+}
+
+// Outside a declared range nothing breaks, but neither does a file mean it.
+constexpr double kAnything = 1e3;
+
+}  // namespace
+
+std::vector<std::string> skillFiles(const std::string& skillFolder) {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(skillFolder, error)) {
+    if (entry.path().extension() == ".skl") paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+std::optional<double> SkillParameters::find(std::string_view skill, std::string_view parameter) const {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Name& name = (*names)[i];
+    if (name.skill == skill && name.parameter == parameter) return values[i];
+  }
+  return std::nullopt;
+}
+
+SkillParameters declareSkillParameters(const std::string& skillFolder) {
+  SkillParameters result;
+  std::vector<SkillParameters::Name> names;
+  for (const Skill& skill : readFolder(skillFolder, result)) {
+    for (const SkillParameter& parameter : skill.parameters) {
+      const config::Range range = parameter.range.value_or(config::Range{-kAnything, kAnything});
+      names.push_back({skill.name, parameter.name, parameter.unit, range, parameter.range});
+      result.values.push_back(parameter.value);
+    }
+  }
+  result.names = std::make_shared<const std::vector<SkillParameters::Name>>(std::move(names));
+  return result;
+}
+
+SkillLibrary::SkillLibrary(const std::string& skillFolder, const SkillParameters& parameters)
+    : SkillLibrary(readFolder(skillFolder, parameters)) {}
+
+SkillLibrary::SkillLibrary(std::vector<Skill> skills) : skills_(std::move(skills)) {
+  resolve();
+}
+
+int SkillLibrary::find(std::string_view name) const {
+  for (std::size_t i = 0; i < skills_.size(); ++i) {
+    if (skills_[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void SkillLibrary::resolve() {
+  for (std::size_t i = 0; i < skills_.size(); ++i) {
+    Skill& skill = skills_[i];
+    if (find(skill.name) != static_cast<int>(i)) {
+      throw SkillError(fmt::format("{}: there is another skill named '{}' in {}", skill.file, skill.name,
+                                   skills_[static_cast<std::size_t>(find(skill.name))].file));
+    }
+    for (Instruction& instruction : skill.program) {
+      if (instruction.kind != Instruction::Kind::Call) continue;
+      instruction.callee = find(instruction.calleeName);
+      if (instruction.callee < 0) {
+        failIn(skill, instruction, fmt::format("there is no skill '{}'", instruction.calleeName));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < skills_.size(); ++i) depthOf(static_cast<int>(i), 1);
+}
+
+// Also finds circles: they have no end.
+int SkillLibrary::depthOf(int index, int depth) const {
+  int deepest = depth;
+  for (const Instruction& instruction : skill(index).program) {
+    if (instruction.kind != Instruction::Kind::Call) continue;
+    if (depth >= kDeepestCall) {
+      failIn(skill(index), instruction, "calls are nested too deeply, or a skill calls itself");
+    }
+    deepest = std::max(deepest, depthOf(instruction.callee, depth + 1));
+  }
+  return deepest;
+}
+
+}  // namespace nonet::motion

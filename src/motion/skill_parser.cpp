@@ -1,0 +1,492 @@
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "nonet/motion/limbs.h"
+#include "nonet/motion/skill_language.h"
+
+#include "skill_lexer.h"
+
+namespace nonet::motion {
+
+namespace {
+
+using config::Unit;
+using model::JointId;
+using model::Side;
+using Kind = SkillToken::Kind;
+
+struct JointWord {
+  std::string_view name;
+  JointId left;
+};
+constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm1},
+                                                 {"shoulderYaw", JointId::LArm2},
+                                                 {"armRoll", JointId::LArm3},
+                                                 {"elbow", JointId::LArm4},
+                                                 {"hipYawPitch", JointId::LLeg1},
+                                                 {"hipRoll", JointId::LLeg2},
+                                                 {"hipPitch", JointId::LLeg3},
+                                                 {"knee", JointId::LLeg4},
+                                                 {"anklePitch", JointId::LLeg5},
+                                                 {"ankleRoll", JointId::LLeg6},
+                                                 {"toe", JointId::LLeg7}}};
+
+constexpr int kDeepest = 32;  // nesting of blocks, brackets and negations
+
+struct Value {
+  double number = 0.0;
+  Unit unit = Unit::None;
+  bool isZero() const { return number == 0.0; }
+};
+
+class Parser {
+ public:
+  Parser(std::string_view text, const std::string& file, const ParameterLookup& lookup)
+      : file_(file), lookup_(lookup) {
+    for (const SkillToken& token : lexSkills(text, file)) {
+      if (token.kind != Kind::Comment && token.kind != Kind::NewLine) tokens_.push_back(token);
+    }
+  }
+
+  std::vector<Skill> run() {
+    std::vector<Skill> skills;
+    while (peek().kind != Kind::End) skills.push_back(parseSkill());
+    return skills;
+  }
+
+ private:
+  // -- tokens
+  const SkillToken& peek() const { return tokens_[at_]; }
+  const SkillToken& take() {
+    const SkillToken& token = tokens_[at_];
+    if (token.kind != Kind::End) ++at_;
+    return token;
+  }
+  bool accept(std::string_view text) {
+    if (peek().kind == Kind::Number || peek().text != text || peek().kind == Kind::End) return false;
+    ++at_;
+    return true;
+  }
+  void expect(std::string_view text) {
+    if (!accept(text)) {
+      const std::string_view found = peek().kind == Kind::End ? "the end of the file" : peek().text;
+      fail(fmt::format("expected '{}', found '{}'", text, found));
+    }
+  }
+  std::string word(std::string_view what) {
+    if (peek().kind != Kind::Word) fail(fmt::format("expected {}", what));
+    return std::string(take().text);
+  }
+  [[noreturn]] void fail(const std::string& message) const { failAt(file_, peek(), message); }
+
+  // -- values
+  Value primary() {
+    const SkillToken& token = peek();
+    if (accept("(")) {
+      if (++depth_ > kDeepest) fail("nested too deeply");
+      const Value inner = sum();
+      --depth_;
+      expect(")");
+      return inner;
+    }
+    if (token.kind == Kind::Number) {
+      take();
+      return {token.value, token.unit};
+    }
+    if (token.kind == Kind::Word) {
+      const auto found = parameters_.find(token.text);
+      if (found == parameters_.end()) fail(fmt::format("unknown parameter '{}'", token.text));
+      take();
+      return found->second;
+    }
+    fail("expected a number or the name of a parameter");
+  }
+  Value signedValue() {
+    if (accept("-")) {
+      const Value inner = primary();
+      return {-inner.number, inner.unit};
+    }
+    return primary();
+  }
+  Value product() {
+    Value left = signedValue();
+    for (;;) {
+      if (accept("*")) {
+        const Value right = signedValue();
+        if (left.unit != Unit::None && right.unit != Unit::None) fail("one factor must be a plain number");
+        left = {left.number * right.number, left.unit == Unit::None ? right.unit : left.unit};
+      } else if (accept("/")) {
+        const Value right = signedValue();
+        if (right.isZero()) fail("division by zero");
+        if (right.unit != Unit::None && right.unit != left.unit)
+          fail("divide by a plain number or the same unit");
+        left = {left.number / right.number, right.unit == left.unit ? Unit::None : left.unit};
+      } else {
+        return left;
+      }
+    }
+  }
+  Value sum() {
+    Value left = product();
+    while (peek().text == "+" || peek().text == "-") {
+      const bool minus = take().text == "-";
+      const Value right = product();
+      if (left.unit != right.unit && !left.isZero() && !right.isZero()) fail("the units of a sum differ");
+      left = {minus ? left.number - right.number : left.number + right.number,
+              left.isZero() && left.unit == Unit::None ? right.unit : left.unit};
+    }
+    return left;
+  }
+  double value(Unit unit) {
+    const SkillToken& first = peek();
+    const Value result = sum();
+    if (result.unit != unit && !result.isZero()) {
+      failAt(file_, first,
+             unit == Unit::None ? std::string("a plain number is needed here")
+                                : fmt::format("a value in {} is needed here", config::unitName(unit)));
+    }
+    return result.number;
+  }
+  double positive(Unit unit) {
+    const SkillToken& first = peek();
+    const double result = value(unit);
+    if (!(result > 0.0)) failAt(file_, first, "must be more than zero");
+    return result;
+  }
+  Vector3 vector(Unit unit) {
+    Vector3 result;
+    expect("(");
+    for (int i = 0; i < 3; ++i) {
+      if (i > 0) expect(",");
+      result[i] = value(unit);
+    }
+    expect(")");
+    return result;
+  }
+
+  // -- skills
+  Skill parseSkill() {
+    expect("skill");
+    skill_ = Skill{};
+    parameters_.clear();
+    skill_.file = file_;
+    skill_.name = word("the name of the skill");
+    expect("{");
+    while (accept("parameter")) parseParameter();
+    block();
+    emit(Instruction::Kind::End);
+    return std::move(skill_);
+  }
+
+  void parseParameter() {
+    const SkillToken nameToken = peek();
+    SkillParameter parameter;
+    parameter.name = word("the name of the parameter");
+    if (parameters_.count(parameter.name) > 0) failAt(file_, nameToken, "this parameter exists already");
+    expect("=");
+    const Value initial = sum();
+    parameter.value = initial.number;
+    parameter.unit = initial.unit;
+    if (accept("in")) {
+      config::Range range;
+      range.low = value(parameter.unit);
+      expect("..");
+      range.high = value(parameter.unit);
+      if (!(range.low < range.high)) failAt(file_, nameToken, "the range is empty");
+      if (parameter.value < range.low || parameter.value > range.high) {
+        failAt(file_, nameToken, "the default lies outside the range");
+      }
+      parameter.range = range;
+    }
+    if (lookup_) parameter.value = lookup_(skill_.name, parameter.name).value_or(parameter.value);
+    parameters_[parameter.name] = {parameter.value, parameter.unit};
+    skill_.parameters.push_back(std::move(parameter));
+  }
+
+  Instruction& emit(Instruction::Kind kind) {
+    Instruction& instruction = skill_.program.emplace_back();
+    instruction.kind = kind;
+    instruction.line = peek().line;
+    instruction.column = peek().column;
+    return instruction;
+  }
+  int here() const { return static_cast<int>(skill_.program.size()); }
+
+  // Statements up to and including the closing bracket.
+  void block() {
+    if (++depth_ > kDeepest) fail("nested too deeply");
+    while (!accept("}")) statement();
+    --depth_;
+  }
+
+  void statement() {
+    if (accept("move")) return move();
+    if (accept("curve")) return curve();
+    if (accept("wait")) return wait();
+    if (accept("if")) return branch();
+    if (accept("repeat")) return repeat();
+    if (accept("call")) return call();
+    if (accept("stiffness")) return stiffness();
+    if (accept("end")) return static_cast<void>(emit(Instruction::Kind::End));
+    if (accept("fail")) return static_cast<void>(emit(Instruction::Kind::Fail));
+    if (peek().kind == Kind::End) fail("the file ends inside a skill: '}' is missing");
+    if (peek().text == "parameter") fail("parameters stand at the begin of a skill");
+    fail(
+        fmt::format("'{}' is no statement (move curve wait if repeat call stiffness end fail)", peek().text));
+  }
+
+  void move() {
+    Instruction& instruction = emit(Instruction::Kind::MoveOver);
+    if (accept("at")) {
+      instruction.kind = Instruction::Kind::MoveAt;
+      instruction.value = positive(Unit::RadianPerSecond);
+    } else {
+      expect("over");
+      instruction.value = positive(Unit::Second);
+    }
+    expect("{");
+    while (!accept("}")) {
+      if (accept("foot")) {
+        instruction.feet.push_back(footGoal(side(), "at"));
+      } else {
+        joints(instruction, true);
+      }
+    }
+  }
+
+  void curve() {
+    Instruction& instruction = emit(Instruction::Kind::Curve);
+    const Side foot = side();
+    expect("foot");
+    expect("over");
+    instruction.value = positive(Unit::Second);
+    if (accept("from")) {
+      instruction.fromBall = accept("ball");
+      if (!instruction.fromBall) expect("torso");
+    }
+    expect("{");
+    while (!accept("}")) instruction.feet.push_back(footGoal(foot, "point"));
+    if (instruction.feet.empty()) fail("a curve needs at least one point");
+  }
+
+  Side side() {
+    if (accept("left")) return Side::Left;
+    if (accept("right")) return Side::Right;
+    fail("expected 'left' or 'right'");
+  }
+
+  FootGoal footGoal(Side side, std::string_view keyword) {
+    FootGoal goal;
+    goal.side = side;
+    expect(keyword);
+    goal.position = vector(Unit::Metre);
+    if (accept("rpy")) goal.rollPitchYaw = vector(Unit::Radian);
+    return goal;
+  }
+
+  // "left.knee -30deg"; without a value the joints are only named.
+  void joints(Instruction& instruction, bool withAngle) {
+    const SkillToken first = peek();
+    const std::string group = word("a joint (left.knee, both.elbow, head.pan), 'foot' or '}'");
+    if (group != "left" && group != "right" && group != "both" && group != "head") {
+      failAt(file_, first, fmt::format("'{}' is no side (left right both head)", group));
+    }
+    expect(".");
+    const SkillToken nameToken = peek();
+    const std::string name = word("the name of a joint");
+    if (group == "head") {
+      if (name != "pan" && name != "tilt") failAt(file_, nameToken, "the head has the joints pan and tilt");
+      const double angle = withAngle ? value(Unit::Radian) : 0.0;
+      // Tilt is positive downwards here as in a head request; the joint is positive upwards.
+      if (name == "pan") instruction.joints.push_back({JointId::Head1, angle});
+      if (name == "tilt") instruction.joints.push_back({JointId::Head2, -angle});
+      return;
+    }
+    const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
+                                    [&](const JointWord& joint) { return joint.name == name; });
+    if (found == kLimbJoints.end()) failAt(file_, nameToken, fmt::format("unknown joint '{}'", name));
+    const double angle = withAngle ? value(Unit::Radian) : 0.0;
+    const JointId right = model::mirrored(found->left);
+    if (group != "right") instruction.joints.push_back({found->left, angle});
+    if (group != "left") instruction.joints.push_back({right, mirrorsSign(right) ? -angle : angle});
+  }
+
+  void wait() {
+    Instruction& instruction = emit(Instruction::Kind::Wait);
+    if (!accept("until")) {
+      instruction.value = positive(Unit::Second);
+      return;
+    }
+    instruction.kind = Instruction::Kind::WaitUntil;
+    instruction.condition = condition();
+    expect("within");
+    instruction.value = positive(Unit::Second);
+  }
+
+  void branch() {
+    const int test = here();
+    emit(Instruction::Kind::Branch);
+    const int tested = condition();
+    skill_.program[test].condition = tested;
+    expect("{");
+    block();
+    if (accept("else")) {
+      const int jump = here();
+      emit(Instruction::Kind::Jump);
+      skill_.program[test].target = here();
+      expect("{");
+      block();
+      skill_.program[jump].target = here();
+    } else {
+      skill_.program[test].target = here();
+    }
+  }
+
+  void repeat() {
+    const SkillToken first = peek();
+    const double count = value(Unit::None);
+    if (count < 1.0 || count > 1000.0 || count != static_cast<int>(count)) {
+      failAt(file_, first, "repeat needs a whole number from 1 to 1000");
+    }
+    const int begin = here();
+    const int slot = skill_.loopSlots++;
+    if (skill_.loopSlots > 8) failAt(file_, first, "at most 8 repetitions in one skill");
+    expect("{");
+    block();
+    Instruction& loop = emit(Instruction::Kind::Loop);
+    loop.target = begin;
+    loop.count = static_cast<int>(count);
+    loop.slot = slot;
+  }
+
+  void call() {
+    Instruction& instruction = emit(Instruction::Kind::Call);
+    instruction.calleeName = word("the name of a skill");
+    instruction.mirrored = accept("mirrored");
+  }
+
+  void stiffness() {
+    Instruction& instruction = emit(Instruction::Kind::Stiffness);
+    const SkillToken first = peek();
+    instruction.value = value(Unit::None);
+    if (instruction.value < 0.0 || instruction.value > 1.0)
+      failAt(file_, first, "stiffness lies between 0 and 1");
+    if (accept("{")) {
+      while (!accept("}")) joints(instruction, false);
+      return;
+    }
+    for (std::size_t i = 0; i < model::kJointCount; ++i)
+      instruction.joints.push_back({model::jointAt(i), 0.0});
+  }
+
+  // -- conditions
+  int add(const ConditionNode& node) {
+    skill_.conditions.push_back(node);
+    return static_cast<int>(skill_.conditions.size()) - 1;
+  }
+  int condition() {
+    int left = conjunction();
+    while (accept("or")) {
+      const int right = conjunction();
+      left = add({ConditionNode::Kind::Or, left, right});
+    }
+    return left;
+  }
+  int conjunction() {
+    int left = term();
+    while (accept("and")) {
+      const int right = term();
+      left = add({ConditionNode::Kind::And, left, right});
+    }
+    return left;
+  }
+  int term() {
+    using Node = ConditionNode::Kind;
+    if (accept("not")) {
+      if (++depth_ > kDeepest) fail("nested too deeply");
+      const int inner = term();
+      --depth_;
+      return add({Node::Not, inner});
+    }
+    if (accept("upright")) return add({Node::Upright});
+    if (accept("contact")) return add({side() == Side::Left ? Node::ContactLeft : Node::ContactRight});
+    if (accept("fallen")) {
+      if (accept("front")) return add({Node::FallenFront});
+      if (accept("back")) return add({Node::FallenBack});
+      if (accept("left")) return add({Node::FallenLeft});
+      if (accept("right")) return add({Node::FallenRight});
+      return add({Node::Fallen});
+    }
+    return comparison();
+  }
+  int comparison() {
+    struct QuantityWord {
+      std::string_view name;
+      Quantity quantity;
+      Unit unit;
+    };
+    static constexpr std::array<QuantityWord, 7> kQuantities{
+        {{"time", Quantity::Time, Unit::Second},
+         {"pitch", Quantity::Pitch, Unit::Radian},
+         {"roll", Quantity::Roll, Unit::Radian},
+         {"height", Quantity::Height, Unit::Metre},
+         {"ballDistance", Quantity::BallDistance, Unit::Metre},
+         {"ballX", Quantity::BallX, Unit::Metre},
+         {"ballY", Quantity::BallY, Unit::Metre}}};
+    for (const QuantityWord& quantity : kQuantities) {
+      if (!accept(quantity.name)) continue;
+      ConditionNode node;
+      node.quantity = quantity.quantity;
+      if (accept("<")) {
+        node.kind = ConditionNode::Kind::Less;
+      } else {
+        expect(">");
+        node.kind = ConditionNode::Kind::Greater;
+      }
+      node.value = value(quantity.unit);
+      return add(node);
+    }
+    fail(fmt::format(
+        "'{}' is no condition (upright fallen contact time pitch roll height ballDistance ballX ballY)",
+        peek().text));
+  }
+
+  std::string file_;
+  const ParameterLookup& lookup_;
+  std::vector<SkillToken> tokens_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+  Skill skill_;
+  std::map<std::string, Value, std::less<>> parameters_;
+};
+
+}  // namespace
+
+bool mirrorsSign(JointId joint) {
+  switch (joint) {
+    case JointId::Head1:
+    case JointId::LArm2:
+    case JointId::LArm3:
+    case JointId::LArm4:
+    case JointId::LLeg2:
+    case JointId::LLeg6:
+    case JointId::RArm2:
+    case JointId::RArm3:
+    case JointId::RArm4:
+    case JointId::RLeg2:
+    case JointId::RLeg6:
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::vector<Skill> parseSkills(std::string_view text, const std::string& file,
+                               const ParameterLookup& lookup) {
+  return Parser(text, file, lookup).run();
+}
+
+}  // namespace nonet::motion

@@ -1,0 +1,318 @@
+#include "nonet/motion/skill_player.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nonet::motion {
+
+using model::JointId;
+using model::Side;
+
+namespace {
+
+// A skill that jumps in a circle without taking time must not hang the robot.
+constexpr int kMostInstructionsPerCycle = 1000;
+
+Matrix3 rotationOf(const Vector3& rollPitchYaw) {
+  return (Eigen::AngleAxisd(rollPitchYaw.z(), Vector3::UnitZ()) *
+          Eigen::AngleAxisd(rollPitchYaw.y(), Vector3::UnitY()) *
+          Eigen::AngleAxisd(rollPitchYaw.x(), Vector3::UnitX()))
+      .toRotationMatrix();
+}
+
+Vector3 anglesOf(const Matrix3& rotation) {
+  return {std::atan2(rotation(2, 1), rotation(2, 2)), std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0)),
+          std::atan2(rotation(1, 0), rotation(0, 0))};
+}
+
+FootGoal mirroredGoal(FootGoal goal) {
+  goal.side = model::other(goal.side);
+  goal.position.y() = -goal.position.y();
+  goal.rollPitchYaw.x() = -goal.rollPitchYaw.x();
+  goal.rollPitchYaw.z() = -goal.rollPitchYaw.z();
+  return goal;
+}
+
+JointGoal mirroredGoal(const JointGoal& goal) {
+  return {model::mirrored(goal.joint), mirrorsSign(goal.joint) ? -goal.angle : goal.angle};
+}
+
+// Cubic Hermite curve through points at equal times with Catmull-Rom slopes, at rest at both ends (AAMAS
+// 2012, section 5.1.3). `share` in 0..1 over the whole curve; point(i) gives waypoint i of 0..count.
+template <class PointAt>
+Vector3 hermite(const PointAt& point, int count, double share) {
+  const double s = std::clamp(share, 0.0, 1.0) * count;
+  const int i = std::min(static_cast<int>(s), count - 1);
+  const double t = s - i;
+  const auto slope = [&](int k) -> Vector3 {
+    if (k == 0 || k == count) return Vector3::Zero();
+    return 0.5 * (point(k + 1) - point(k - 1));
+  };
+  const double t2 = t * t;
+  const double t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * point(i) + (t3 - 2 * t2 + t) * slope(i) + (3 * t2 - 2 * t3) * point(i + 1) +
+         (t3 - t2) * slope(i + 1);
+}
+
+}  // namespace
+
+SkillPlayer::SkillPlayer(const model::RobotModel& model, const SkillLibrary& library)
+    : model_(&model), library_(&library) {}
+
+bool SkillPlayer::start(std::string_view name, bool mirrored, const model::JointArray& commanded) {
+  const int skill = library_->find(name);
+  if (skill < 0) return false;
+  frames_[0] = Frame{skill, 0, mirrored, {}};
+  depth_ = 1;
+  time_ = 0.0;
+  begun_ = false;
+  from_ = commanded;
+  return true;
+}
+
+SkillPlayer::Result SkillPlayer::update(const world::WorldState& world, JointTargets& targets) {
+  if (depth_ == 0) return Result::Finished;
+  double budget = world.body.cycleTime;
+  time_ += budget;
+  for (int count = 0; count < kMostInstructionsPerCycle; ++count) {
+    Frame& frame = top();
+    const Skill& skill = library_->skill(frame.skill);
+    const Instruction& instruction = skill.program[static_cast<std::size_t>(frame.at)];
+    if (instruction.kind == Instruction::Kind::Call) {
+      ++frame.at;  // where to go on afterwards
+      const bool mirrored = frame.mirrored != instruction.mirrored;
+      frames_[static_cast<std::size_t>(depth_)] = Frame{instruction.callee, 0, mirrored, {}};
+      ++depth_;
+      continue;
+    }
+    switch (execute(instruction, skill, world, budget, targets)) {
+      case Outcome::Stay:
+        return Result::Running;
+      case Outcome::Next:
+        begun_ = false;
+        break;
+      case Outcome::Failed:
+        depth_ = 0;
+        return Result::Failed;
+      case Outcome::Ended:
+        begun_ = false;
+        if (--depth_ == 0) return Result::Finished;
+        break;
+    }
+  }
+  depth_ = 0;
+  return Result::Failed;
+}
+
+SkillPlayer::Outcome SkillPlayer::execute(const Instruction& instruction, const Skill& skill,
+                                          const world::WorldState& world, double& budget,
+                                          JointTargets& targets) {
+  using Kind = Instruction::Kind;
+  Frame& frame = top();
+  const bool first = !begun_;
+  if (first) begin(instruction, frame.mirrored, world, targets);
+  switch (instruction.kind) {
+    case Kind::MoveOver:
+    case Kind::MoveAt:
+    case Kind::Curve:
+    case Kind::Wait:
+    case Kind::WaitUntil: {
+      if (instruction.kind == Kind::WaitUntil && holds(skill, instruction.condition, frame.mirrored, world))
+        break;
+      const double used = std::min(budget, duration_ - inInstruction_);
+      inInstruction_ += used;
+      budget -= used;
+      const double share = duration_ > 0.0 ? inInstruction_ / duration_ : 1.0;
+      if (instruction.kind == Kind::MoveOver || instruction.kind == Kind::MoveAt ||
+          instruction.kind == Kind::Curve) {
+        place(instruction, frame.mirrored, share, targets);
+      }
+      if (budget <= 1e-9) {
+        if (inInstruction_ < duration_ - 1e-9) return Outcome::Stay;
+        ++frame.at;  // over exactly with this cycle
+        begun_ = false;
+        return Outcome::Stay;
+      }
+      break;
+    }
+    case Kind::Branch:
+      frame.at =
+          holds(skill, instruction.condition, frame.mirrored, world) ? frame.at + 1 : instruction.target;
+      return Outcome::Next;
+    case Kind::Jump:
+      frame.at = instruction.target;
+      return Outcome::Next;
+    case Kind::Loop: {
+      int& done = frame.loops[static_cast<std::size_t>(instruction.slot)];
+      if (++done < instruction.count) {
+        frame.at = instruction.target;
+        return Outcome::Next;
+      }
+      done = 0;
+      break;
+    }
+    case Kind::Stiffness:
+      for (const JointGoal& goal : instruction.joints) {
+        const JointId joint = frame.mirrored ? model::mirrored(goal.joint) : goal.joint;
+        targets.stiffness[model::index(joint)] = instruction.value;
+      }
+      break;
+    case Kind::End:
+      return Outcome::Ended;
+    case Kind::Fail:
+      return Outcome::Failed;
+    case Kind::Call:
+      break;  // done by the caller
+  }
+  ++frame.at;
+  return Outcome::Next;
+}
+
+void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const world::WorldState& world,
+                        const JointTargets& targets) {
+  begun_ = true;
+  inInstruction_ = 0.0;
+  duration_ = instruction.value;
+  from_ = targets.angles;
+  // A joint that was let go begins where it is.
+  for (std::size_t i = 0; i < model::kJointCount; ++i) {
+    if (targets.stiffness[i] == 0.0) from_[i] = world.body.joints[i];
+  }
+  if (instruction.kind == Instruction::Kind::MoveAt) {
+    double farthest = 0.0;
+    for (const JointGoal& raw : instruction.joints) {
+      const JointGoal goal = mirrored ? mirroredGoal(raw) : raw;
+      farthest = std::max(farthest, std::abs(goal.angle - from_[model::index(goal.joint)]));
+    }
+    duration_ = farthest / instruction.value;
+  }
+  if (!instruction.feet.empty()) {
+    model::BodyPoses bodies;
+    model::forwardKinematics(*model_, from_, bodies);
+    for (const Side side : {Side::Left, Side::Right}) {
+      feetFrom_[index(side)] = model::solePose(*model_, bodies, side);
+    }
+  }
+  if (instruction.fromBall) {
+    // The ball seen from the torso, on the ground: the ball state is level, so the torso's tilt comes in.
+    const Vector3 p_level(world.ball.p_RB.x(), world.ball.p_RB.y(),
+                          world.ball.p_FB.z() - world.body.torsoHeight);
+    const Matrix3 R_LR = (Eigen::AngleAxisd(world.body.pitch, Vector3::UnitY()) *
+                          Eigen::AngleAxisd(world.body.roll, Vector3::UnitX()))
+                             .toRotationMatrix();
+    p_RBall_ = R_LR.transpose() * p_level;
+  }
+}
+
+void SkillPlayer::place(const Instruction& instruction, bool mirrored, double share,
+                        JointTargets& targets) const {
+  for (const JointGoal& raw : instruction.joints) {
+    const JointGoal goal = mirrored ? mirroredGoal(raw) : raw;
+    if (!model_->has(goal.joint)) continue;
+    const std::size_t i = model::index(goal.joint);
+    targets.angles[i] = from_[i] + share * (goal.angle - from_[i]);
+    if (targets.stiffness[i] == 0.0) targets.stiffness[i] = 1.0;
+  }
+  if (!instruction.feet.empty()) placeFoot(instruction, mirrored, share, targets);
+}
+
+void SkillPlayer::placeFoot(const Instruction& instruction, bool mirrored, double share,
+                            JointTargets& targets) const {
+  const auto set = [&](Side side, const Vector3& position, const Vector3& rollPitchYaw) {
+    Pose3 X_RS = Pose3::Identity();
+    X_RS.translation() = position;
+    X_RS.linear() = rotationOf(rollPitchYaw);
+    model::LegAngles leg{};
+    model::legInverseKinematics(*model_, side, X_RS, leg);
+    model::setLegAngles(side, leg, targets.angles);
+  };
+  if (instruction.kind != Instruction::Kind::Curve) {
+    for (const FootGoal& raw : instruction.feet) {
+      const FootGoal goal = mirrored ? mirroredGoal(raw) : raw;
+      const Pose3& from = feetFrom_[index(goal.side)];
+      const Vector3 rpyFrom = anglesOf(from.linear());
+      set(goal.side, from.translation() + share * (goal.position - from.translation()),
+          rpyFrom + share * (goal.rollPitchYaw - rpyFrom));
+    }
+    return;
+  }
+  const FootGoal firstGoal = mirrored ? mirroredGoal(instruction.feet.front()) : instruction.feet.front();
+  const Pose3& from = feetFrom_[index(firstGoal.side)];
+  const int count = static_cast<int>(instruction.feet.size());
+  const auto goalAt = [&](int i) {
+    FootGoal goal = instruction.feet[static_cast<std::size_t>(i - 1)];
+    if (mirrored) goal = mirroredGoal(goal);
+    if (instruction.fromBall) goal.position += p_RBall_;
+    return goal;
+  };
+  const auto positionAt = [&](int i) -> Vector3 {
+    return i == 0 ? Vector3(from.translation()) : goalAt(i).position;
+  };
+  const Vector3 rpyFrom = anglesOf(from.linear());
+  const double s = std::clamp(share, 0.0, 1.0) * count;
+  const int i = std::min(static_cast<int>(s), count - 1);
+  const Vector3 before = i == 0 ? rpyFrom : goalAt(i).rollPitchYaw;
+  const Vector3 after = goalAt(i + 1).rollPitchYaw;
+  set(firstGoal.side, hermite(positionAt, count, share), before + (s - i) * (after - before));
+}
+
+double SkillPlayer::quantity(Quantity quantity, bool mirrored, const world::WorldState& world) const {
+  switch (quantity) {
+    case Quantity::Time:
+      return time_;
+    case Quantity::Pitch:
+      return world.body.pitch;
+    case Quantity::Roll:
+      return mirrored ? -world.body.roll : world.body.roll;
+    case Quantity::Height:
+      return world.body.torsoHeight;
+    case Quantity::BallDistance:
+      return world.ball.p_RB.norm();
+    case Quantity::BallX:
+      return world.ball.p_RB.x();
+    case Quantity::BallY:
+      return mirrored ? -world.ball.p_RB.y() : world.ball.p_RB.y();
+  }
+  return 0.0;
+}
+
+bool SkillPlayer::holds(const Skill& skill, int node, bool mirrored, const world::WorldState& world) const {
+  using Kind = ConditionNode::Kind;
+  using world::Posture;
+  const ConditionNode& c = skill.conditions[static_cast<std::size_t>(node)];
+  const Posture posture = world.body.posture;
+  const auto contact = [&](Side side) {
+    return world.body.footContact[index(mirrored ? model::other(side) : side)];
+  };
+  switch (c.kind) {
+    case Kind::Not:
+      return !holds(skill, c.first, mirrored, world);
+    case Kind::And:
+      return holds(skill, c.first, mirrored, world) && holds(skill, c.second, mirrored, world);
+    case Kind::Or:
+      return holds(skill, c.first, mirrored, world) || holds(skill, c.second, mirrored, world);
+    case Kind::Upright:
+      return posture == Posture::Upright;
+    case Kind::Fallen:
+      return world::isFallen(posture);
+    case Kind::FallenFront:
+      return posture == Posture::FallenFront;
+    case Kind::FallenBack:
+      return posture == Posture::FallenBack;
+    case Kind::FallenLeft:
+      return posture == (mirrored ? Posture::FallenRight : Posture::FallenLeft);
+    case Kind::FallenRight:
+      return posture == (mirrored ? Posture::FallenLeft : Posture::FallenRight);
+    case Kind::ContactLeft:
+      return contact(Side::Left);
+    case Kind::ContactRight:
+      return contact(Side::Right);
+    case Kind::Less:
+      return quantity(c.quantity, mirrored, world) < c.value;
+    case Kind::Greater:
+      return quantity(c.quantity, mirrored, world) > c.value;
+  }
+  return false;
+}
+
+}  // namespace nonet::motion
