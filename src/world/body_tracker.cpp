@@ -9,8 +9,10 @@ namespace nonet::world {
 
 namespace {
 
-constexpr int kSleepRepeats = 5;      // identical messages until the robot counts as asleep
-constexpr double kMinimumLoad = 2.0;  // N on a foot before its kinematics count
+constexpr int kSleepRepeats = 5;           // identical messages until the robot counts as asleep
+constexpr double kFootErrorCycles = 10.0;  // the errors of the feet's velocity go together for so many cycles
+constexpr double kHeightToSpeed = 2.0;     // 1/s, gain from an error of the height to the vertical velocity
+constexpr double kMinimumLoad = 2.0;       // N on a foot before its kinematics count
 
 std::size_t at(model::Side side) {
   return static_cast<std::size_t>(side);
@@ -43,7 +45,9 @@ double tiltOf(const Matrix3& R) {
 }  // namespace
 
 BodyTracker::BodyTracker(const model::RobotModel& model, const WorldParameters& parameters)
-    : model_(&model), parameters_(parameters) {}
+    : model_(&model), parameters_(parameters) {
+  covariance_ << 0.01, 0.0, 0.0, 1e-4;
+}
 
 bool BodyTracker::update(const protocol::Percept& percept, BodyState& state) {
   const int cycles = cyclesSince(percept.time);
@@ -178,21 +182,18 @@ void BodyTracker::integrateOrientation(int cycles, BodyState& state) {
 }
 
 void BodyTracker::levelByAccelerometer(BodyState& state) {
-  // The accelerometer is one cycle old, so it is compared with the orientation of that cycle.
+  // Only for a robot at rest: there the accelerometer points up. It is one cycle old, so it is compared with
+  // the orientation of that cycle.
   const double size = state.accelerometer.norm();
-  const double excess = std::abs(size - kGravity);
-  if (first_ || size < 0.5 * kGravity || excess > 1.0) {
+  const double busy = state.gyro.norm() + previousGyro_.norm();
+  if (first_ || std::abs(size - kGravity) > 0.1 || busy > 0.02) {
     tiltMismatches_ = 0;
     return;
   }
   const Vector3 up_G = previousR_GR_ * (state.accelerometer / size);
   const Vector3 error = up_G.cross(Vector3::UnitZ());
-  const double busy = state.gyro.norm() + previousGyro_.norm() + 0.1 * state.v_GR.norm();
-  const bool calm = busy < 0.05 && excess < 0.1;
-  tiltMismatches_ = calm && error.norm() > 0.02 ? tiltMismatches_ + 1 : 0;
-  double gain = 0.0005;
-  if (calm) gain = 0.02;
-  if (tiltMismatches_ > 5) gain = 0.3;  // the robot was put upright by somebody else
+  tiltMismatches_ = error.norm() > 0.02 ? tiltMismatches_ + 1 : 0;
+  const double gain = tiltMismatches_ > 5 ? 0.3 : 0.01;  // large: somebody else put the robot upright
   state.R_GR = smallRotation(gain * error) * state.R_GR;
 }
 
@@ -215,7 +216,7 @@ BodyTracker::KinematicVelocity BodyTracker::footVelocity(const BodyState& state,
   if (result.load <= 0.0) return {};
   result.v_GR /= result.load;
   // Feet slip and roll over their edges; how much grows with the speed (compared with the recorded walks).
-  result.sigma = 0.02 + 0.5 * activity / result.load + 0.1 * state.gyro.norm();
+  result.sigma = 0.003 + 0.3 * activity / result.load + 0.03 * state.gyro.norm();
   return result;
 }
 
@@ -224,7 +225,8 @@ void BodyTracker::integrateVelocity(int cycles, const KinematicVelocity& kinemat
   const double dt = cycles * kCycleTime;
   if (state.asleep) {
     settledVelocity_.setZero();
-    velocityVariance_ = 1e-6;
+    covariance_(0, 0) = 1e-6;
+    covariance_(0, 1) = covariance_(1, 0) = 0.0;
     state.v_GR.setZero();
     settledPosition_ = state.p_GR;
     return;
@@ -232,16 +234,20 @@ void BodyTracker::integrateVelocity(int cycles, const KinematicVelocity& kinemat
   // ACC = R^T ((v - v_before)/dt - g), one cycle old (server facts 2.6).
   const Vector3 acceleration = previousR_GR_ * state.accelerometer - Vector3(0.0, 0.0, kGravity);
   settledVelocity_ += acceleration * dt;
-  // Printing adds 5.8e-5 m/s per cycle; a tilt error of 1e-3 rad adds 2e-4 m/s.
-  velocityVariance_ += cycles * (2e-4 * 2e-4) + (cycles > 1 ? 0.04 : 0.0);
-  if (previousKinematic_.load > 0.0) {
-    // The errors of successive cycles go together for about a step, so each counts for a tenth.
-    const double variance = 10.0 * previousKinematic_.sigma * previousKinematic_.sigma;
-    const double gain = velocityVariance_ / (velocityVariance_ + variance);
-    settledVelocity_ += gain * (previousKinematic_.v_GR - settledVelocity_);
-    velocityVariance_ *= 1.0 - gain;
-  }
+  // Printing adds 5.8e-5 m/s and 1e-6 rad per cycle. A cycle that was lost adds much more.
+  Matrix2 F;
+  F << 1.0, kGravity * dt, 0.0, 1.0;
+  covariance_ = F * covariance_ * F.transpose();
+  covariance_(0, 0) += 1e-8 * cycles + (cycles > 1 ? 0.04 : 0.0);
+  covariance_(1, 1) += 4e-12 * cycles + (cycles > 1 ? 1e-6 : 0.0);
+  if (previousKinematic_.load > 0.0) correctByFeet(state);
   settledPosition_ += settledVelocity_ * dt;
+  if (previousGrounded_) {
+    // The legs measure the height better than any velocity: they hold position and velocity in z.
+    const double innovation = previousHeight_ - settledPosition_.z();
+    settledPosition_.z() += (isFallen(state.posture) ? 0.1 : 0.4) * innovation;
+    settledVelocity_.z() += kHeightToSpeed * innovation;
+  }
   state.v_GR = settledVelocity_;
   if (kinematic.load > 0.0 && previousKinematic_.load > 0.0) {
     // The change of this last cycle is not measured yet; the legs tell most of it.
@@ -253,12 +259,33 @@ void BodyTracker::integrateVelocity(int cycles, const KinematicVelocity& kinemat
   state.p_GR = settledPosition_ + state.v_GR * kCycleTime;
 }
 
+void BodyTracker::correctByFeet(BodyState& state) {
+  const double variance = kFootErrorCycles * previousKinematic_.sigma * previousKinematic_.sigma;
+  const Vector3 innovation = previousKinematic_.v_GR - settledVelocity_;
+  // A long disagreement means that the robot was put upright or moved by somebody else.
+  const double share = innovation.head<2>().squaredNorm() / (covariance_(0, 0) + variance);
+  disagreement_ += 0.1 * (share - disagreement_);
+  if (disagreement_ > 2.0) {
+    covariance_ += Vector2(0.01, 1e-4).asDiagonal();
+    disagreement_ = 0.0;
+  }
+  const double expected = covariance_(0, 0) + variance;
+  const Vector2 gain = covariance_.col(0) / expected;
+  settledVelocity_.head<2>() += gain.x() * innovation.head<2>();
+  // exp(d) R a = R a + d x (R a), and R a is mostly (0, 0, g): a tilt error d about y adds g d to x.
+  const Vector3 tilt(-gain.y() * innovation.y(), gain.y() * innovation.x(), 0.0);
+  state.R_GR = smallRotation(tilt) * state.R_GR;
+  previousR_GR_ = smallRotation(tilt) * previousR_GR_;
+  const Matrix2 joseph = Matrix2::Identity() - gain * Eigen::RowVector2d(1.0, 0.0);
+  covariance_ = joseph * covariance_ * joseph.transpose() + variance * gain * gain.transpose();
+}
+
 void BodyTracker::resetUpright(BodyState& state) {
   const double yaw = yawOf(state.R_GR);
   state.R_GR = Eigen::AngleAxisd(yaw, Vector3::UnitZ()).toRotationMatrix();
   previousR_GR_ = state.R_GR;
   settledVelocity_.setZero();
-  velocityVariance_ = 0.01;
+  covariance_ << 0.01, 0.0, 0.0, 1e-6;
   state.v_GR.setZero();
   updateAngles(state);
 }
@@ -301,12 +328,14 @@ double BodyTracker::lowestPoint(const BodyState& state) const {
   return lowest;
 }
 
-void BodyTracker::updateHeight(BodyState& state) const {
+void BodyTracker::updateHeight(BodyState& state) {
   const double onGround = -lowestPoint(state);
   const bool contact = state.footContact[0] || state.footContact[1] || isFallen(state.posture);
   // In the air the inertial estimate carries on, but never puts a foot below the ground.
-  const double airborne = state.torsoHeight + state.v_GR.z() * state.cycleTime;
-  state.torsoHeight = contact || first_ ? onGround : std::max(onGround, airborne);
+  state.torsoHeight = contact || first_ ? onGround : std::max(onGround, state.p_GR.z());
+  if (first_) state.p_GR.z() = settledPosition_.z() = onGround;
+  previousHeight_ = onGround;
+  previousGrounded_ = contact;
 }
 
 void BodyTracker::updatePosture(BodyState& state) {

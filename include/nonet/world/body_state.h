@@ -36,7 +36,8 @@ struct BodyState {
   double postureSince = 0.0;       // server time at which the posture began, s
   double torsoHeight = 0.0;        // m above the ground, from the supporting foot's kinematics
   Vector3 v_GR = Vector3::Zero();  // velocity of the torso centre, m/s, axes of G
-  Vector3 p_GR = Vector3::Zero();  // torso centre relative to its place at the start, drifting, m
+  Vector3 p_GR = Vector3::Zero();  // torso centre, m: x, y relative to its place at the start, drifting;
+                                   // z above the ground
   model::Side supportSide =
       model::Side::Left;  // foot that carries the larger load (the last one while in the air)
   bool asleep = false;    // the server froze the still robot: its senses repeat (server facts 3.4)

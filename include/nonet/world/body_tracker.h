@@ -6,8 +6,9 @@
 // How it works. The server's gyro and accelerometer are free of noise but for printing (server facts 2.6), so
 // the torso is followed as by an inertial navigation system: the gyro is integrated with the step of the
 // server's physics, and the accelerometer, which is one cycle older than the rest, gives the velocity of the
-// cycle before. What drifts is held by the kinematics: a foot that stands does not move, and when nothing
-// shakes, the accelerometer points up.
+// cycle before. What drifts is held by the kinematics: a foot that stands does not move. A small Kalman
+// filter compares the two velocities; their difference tells the error of the velocity and, because a tilted
+// accelerometer sees a part of gravity, that of the tilt.
 #pragma once
 
 #include <array>
@@ -50,9 +51,10 @@ class BodyTracker {
   void levelByAccelerometer(BodyState& state);
   KinematicVelocity footVelocity(const BodyState& state, double dt) const;
   void integrateVelocity(int cycles, const KinematicVelocity& kinematic, BodyState& state);
+  void correctByFeet(BodyState& state);
   void updateSleep(const protocol::Percept& percept, BodyState& state);
   void updateAngles(BodyState& state) const;
-  void updateHeight(BodyState& state) const;
+  void updateHeight(BodyState& state);
   void updatePosture(BodyState& state);
   double lowestPoint(const BodyState& state) const;
 
@@ -69,7 +71,11 @@ class BodyTracker {
   // Velocity and position of the cycle before the present one: as far as the accelerometer reaches.
   Vector3 settledVelocity_ = Vector3::Zero();
   Vector3 settledPosition_ = Vector3::Zero();
-  double velocityVariance_ = 1.0;  // (m/s)^2
+  // Covariance of (velocity, tilt) for each horizontal axis, m/s and rad: the same for both axes.
+  Matrix2 covariance_ = Matrix2::Identity();
+  double disagreement_ = 0.0;  // smoothed, of feet and accelerometer, in units of the expected one
+  double previousHeight_ = 0.0;
+  bool previousGrounded_ = false;
   // What the last message said, to notice that nothing changes any more.
   model::JointArray lastJoints_{};
   Vector3 lastGyro_ = Vector3::Zero();
