@@ -1,0 +1,45 @@
+// What can be learned: a task turns agent parameters and a seed into a fitness (higher is better). Tasks run
+// the real agent code on the in-process simulation with noise on. Adding a task is adding one file and one
+// line in registeredTasks().
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nonet/agent/parameters.h"
+
+namespace nonet::lab {
+
+struct TaskSettings {
+  int robotType = 0;
+  bool quickSolver = false;  // ODE's iterative stepper: faster, not exact
+  std::string dataFolder;    // holds params/ and skills/
+};
+
+struct TaskResult {
+  double fitness = 0.0;
+  /// Named measures that explain the fitness ("falls", "distance_m", ...), the same names in every result of
+  /// a task.
+  std::vector<std::pair<std::string, double>> measures;
+};
+
+class Task {
+ public:
+  virtual ~Task() = default;
+  virtual std::string_view name() const = 0;
+  virtual std::string_view description() const = 0;
+  /// Prefixes of the parameter keys that the optimizer moves by default ("motion.walk.").
+  virtual std::vector<std::string> searchedKeys() const = 0;
+  /// Called from several threads at once. The same arguments always give the same result.
+  virtual TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                              const TaskSettings& settings) const = 0;
+};
+
+std::span<const Task* const> registeredTasks();
+/// Throws std::runtime_error that lists the known names.
+const Task& findTask(std::string_view name);
+
+}  // namespace nonet::lab
