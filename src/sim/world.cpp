@@ -18,16 +18,6 @@ void prepareThread() {
   static_cast<void>(prepared);
 }
 
-void wake(BodyNode& node) {
-  dBodyEnable(node.body);
-  node.stepsUntilSleep = kStepsUntilSleep;
-}
-
-void stop(dBodyID body) {
-  dBodySetLinearVel(body, 0.0, 0.0, 0.0);
-  dBodySetAngularVel(body, 0.0, 0.0, 0.0);
-}
-
 }  // namespace
 
 World::Implementation::Implementation(const WorldSettings& worldSettings) : settings(worldSettings) {
@@ -92,7 +82,7 @@ void World::setJointSpeed(RobotHandle robot, model::JointId joint, float radPerS
     dJointSetHingeParam(node->joint, dParamVel, speed);
   }
   if (radPerSecond != 0.0F && dBodyIsEnabled(node->child) == 0)
-    wake(implementation_->robot(robot).body(node->childId));
+    wakeBody(implementation_->robot(robot).body(node->childId));
 }
 
 void World::freezeJoint(RobotHandle robot, model::JointId joint, bool frozen) {
@@ -111,39 +101,11 @@ float World::jointAngle(RobotHandle robot, model::JointId joint) const {
   return scene::toRadians(jointAngleDegrees(robot, joint));
 }
 
-void World::moveRobot(RobotHandle robot, const Vector3f& position) {
-  RobotNode& node = implementation_->robot(robot);
-  const Vector3f torso = node.bodies.front().pose.position;  // before any move of this cycle (facts 4.8)
-  for (BodyNode& body : node.bodies) {
-    const Vector3f target = position + (scene::fromOde(dBodyGetPosition(body.body)) - torso);
-    dBodySetPosition(body.body, target.x(), target.y(), target.z());
-    stop(body.body);
-    body.moved = true;
-  }
-}
-
-void World::placeRobot(RobotHandle robot, const Vector3f& position, float yawDegrees) {
-  RobotNode& node = implementation_->robot(robot);
-  const dBodyID torso = node.bodies.front().body;
-  const Vector3f origin = scene::fromOde(dBodyGetPosition(torso));
-  const Eigen::Matrix3f back = scene::rotationFromOde(dBodyGetRotation(torso)).transpose();
-  const Eigen::Matrix3f turn = scene::multiply(scene::rotationZ(scene::toRadians(yawDegrees)), back);
-  for (BodyNode& body : node.bodies) {
-    const Vector3f place = scene::fromOde(dBodyGetPosition(body.body));
-    const Eigen::Matrix3f rotation =
-        scene::multiply(turn, scene::rotationFromOde(dBodyGetRotation(body.body)));
-    const Vector3f target = position + scene::rotate(turn, place - origin);
-    dBodySetPosition(body.body, target.x(), target.y(), target.z());
-    stop(body.body);
-    body.moved = true;
-    dMatrix3 matrix;
-    scene::toOde(rotation, matrix);
-    dBodySetRotation(body.body, matrix);
-  }
-}
-
 const ScenePose& World::bodyPose(RobotHandle robot, model::BodyId body) const {
   return implementation_->robot(robot).body(body).pose;
+}
+Vector3f World::bodyPosition(RobotHandle robot, model::BodyId body) const {
+  return scene::fromOde(dBodyGetPosition(implementation_->robot(robot).body(body).body));
 }
 Vector3f World::bodyVelocity(RobotHandle robot, model::BodyId body) const {
   return scene::fromOde(dBodyGetLinearVel(implementation_->robot(robot).body(body).body));
@@ -164,29 +126,6 @@ std::optional<FootContact> World::footContact(RobotHandle robot, model::BodyId f
   return std::nullopt;
 }
 
-Vector3f World::ballPosition() const {
-  return scene::fromOde(dBodyGetPosition(implementation_->ball.body));
-}
-Vector3f World::ballVelocity() const {
-  return scene::fromOde(dBodyGetLinearVel(implementation_->ball.body));
-}
-Vector3f World::ballAngularVelocity() const {
-  return scene::fromOde(dBodyGetAngularVel(implementation_->ball.body));
-}
-const ScenePose& World::ballPose() const {
-  return implementation_->ball.pose;
-}
-void World::setBallPosition(const Vector3f& position) {
-  BodyNode& ball = implementation_->ball;
-  dBodySetPosition(ball.body, position.x(), position.y(), position.z());
-  ball.moved = true;
-  wake(ball);
-}
-void World::setBallVelocity(const Vector3f& velocity) {
-  dBodySetLinearVel(implementation_->ball.body, velocity.x(), velocity.y(), velocity.z());
-  dBodySetAngularVel(implementation_->ball.body, 0.0, 0.0, 0.0);
-  wake(implementation_->ball);
-}
 World::Goal World::ballInGoal() const {
   return implementation_->ballInGoal;
 }

@@ -49,6 +49,21 @@ struct BodyNode {
   bool moved = true;                       // the geom is marked as moved since the last collision
 };
 
+/// Wakes the body and starts its countdown to sleep anew.
+inline void wakeBody(BodyNode& node) {
+  dBodyEnable(node.body);
+  node.stepsUntilSleep = kStepsUntilSleep;
+}
+
+/// Sets ODE's countdown to sleep, for which it has no setter: enabling a body copies it from the body's
+/// setting.
+inline void setCountdown(BodyNode& node, int steps) {
+  dBodySetAutoDisableSteps(node.body, steps);
+  dBodyEnable(node.body);
+  dBodySetAutoDisableSteps(node.body, kStepsUntilSleep);
+  node.stepsUntilSleep = steps;
+}
+
 struct JointNode {
   model::JointId id = model::JointId::Head1;
   dJointID joint = nullptr;
@@ -81,6 +96,12 @@ struct RobotNode {
   std::array<int, model::kBodyCount> bodyIndex{};
   std::array<int, model::kJointCount> jointIndex{};
   std::vector<FootSensor> feet;
+  struct DeferredPlacement {
+    World::DeferredBy effector = World::DeferredBy::Init;
+    Vector3f position;
+    float yawDegrees = 0.0F;
+  };
+  std::optional<DeferredPlacement> deferred;  // executed and forgotten in the next prePhysics()
   Vector3f lastVelocity = Vector3f::Zero();
   Vector3f acceleration = Vector3f::Zero();
 
@@ -111,6 +132,11 @@ struct World::Implementation {
   void removeRobot(RobotHandle handle);
   void destroyRobot(RobotNode& robot);
   RobotNode& robot(RobotHandle handle);
+
+  // world_moves.cpp
+  void moveRobot(RobotNode& robot, const Vector3f& position);
+  void placeRobot(RobotNode& robot, const Vector3f& position, float yawDegrees);
+  void runDeferred(RobotNode& robot, World::DeferredBy effector);
 
   // world_step.cpp
   void prePhysics();

@@ -115,10 +115,7 @@ void restoreBody(Reader& in, BodyNode& node) {
   in.get(v, 3);
   dBodySetTorque(body, v[0], v[1], v[2]);
   const bool enabled = in.get<bool>();
-  node.stepsUntilSleep = in.get<int>();
-  dBodySetAutoDisableSteps(body, node.stepsUntilSleep);
-  dBodyEnable(body);
-  dBodySetAutoDisableSteps(body, kStepsUntilSleep);
+  setCountdown(node, in.get<int>());
   if (!enabled) dBodyDisable(body);
   node.moved = in.get<bool>();
   node.pose = in.pose();

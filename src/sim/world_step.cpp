@@ -70,11 +70,19 @@ bool involves(const ContactPair& pair, ContactParty::Kind kind) {
 
 }  // namespace
 
+// The server walks its scene tree: ball, then robot by robot, and in a robot the torso with its effectors and
+// sensors before the other bodies.
 void World::Implementation::prePhysics() {
   applyDrag(ball.body, kBallAngularDrag);
   for (const auto& robot : robots) {
-    for (const BodyNode& body : robot->bodies) applyDrag(body.body, kRobotAngularDrag);
+    applyDrag(robot->bodies.front().body, kRobotAngularDrag);
+    runDeferred(*robot, DeferredBy::Init);
     sampleAcceleration(*robot);
+    runDeferred(*robot, DeferredBy::Beam);
+    for (std::size_t i = 1; i < robot->bodies.size(); ++i) {
+      applyDrag(robot->bodies[i].body, kRobotAngularDrag);
+    }
+    robot->deferred.reset();
     for (FootSensor& foot : robot->feet) foot.touches.clear();
   }
 }

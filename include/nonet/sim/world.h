@@ -97,8 +97,31 @@ class World {
   /// As above, and the torso exactly upright with this yaw in degrees (0 = facing +y).
   void placeRobot(RobotHandle robot, const Vector3f& position, float yawDegrees);
 
+  /// As placeRobot(), but executed within the next prePhysics(), at the place in the walk through the scene
+  /// tree where the server runs that effector: the torso's drag (and for Beam its accelerometer) comes before
+  /// the move, the drag of the other bodies after it, with velocities 0. Use this for the init and beam
+  /// effectors.
+  enum class DeferredBy : std::uint8_t { Init, Beam };
+  void deferPlacement(RobotHandle robot, DeferredBy effector, const Vector3f& position, float yawDegrees);
+
+  /// The whole mechanical state of a body, in ODE's precision: for starting a world from recorded or computed
+  /// poses. The rotation is normalised. Bodies of one robot must fit together at their joints.
+  struct BodyState {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();         // world, m/s
+    Eigen::Vector3d angularVelocity = Eigen::Vector3d::Zero();  // world, rad/s
+  };
+  BodyState bodyState(RobotHandle robot, model::BodyId body) const;
+  void setBodyState(RobotHandle robot, model::BodyId body, const BodyState& state);
+  /// Puts a robot to sleep or wakes it (ODE's auto-disable, server facts 3.4).
+  void setAsleep(RobotHandle robot, bool asleep);
+  bool isAsleep(RobotHandle robot) const;
+
   /// Scene poses after the last step. Moves show only after the next step, as in the server's scene tree.
   const ScenePose& bodyPose(RobotHandle robot, model::BodyId body) const;
+  /// Where the body is now, moves included.
+  Vector3f bodyPosition(RobotHandle robot, model::BodyId body) const;
   Vector3f bodyVelocity(RobotHandle robot, model::BodyId body) const;  // m/s, world
   Vector3f gyro(RobotHandle robot) const;           // rad/s, torso axes, after the last step
   Vector3f accelerometer(RobotHandle robot) const;  // m/s^2, torso axes, sampled before the last step
@@ -113,6 +136,7 @@ class World {
   Vector3f ballAngularVelocity() const;
   void setBallPosition(const Vector3f& position);  // keeps velocity and spin, wakes it
   void setBallVelocity(const Vector3f& velocity);  // stops the spin, wakes it
+  void setBallState(const BodyState& state);       // and wakes it
   /// The goal trigger box that the ball overlapped in the last step, if any.
   enum class Goal : std::uint8_t { None, Left, Right };
   Goal ballInGoal() const;
