@@ -1,56 +1,147 @@
 #include "nonet/world/world_model.h"
 
+#include <cmath>
+
+#include "nonet/math/angle.h"
 #include "nonet/world/body_tracker.h"
 #include "nonet/world/game_tracker.h"
+#include "nonet/world/localization.h"
 
 namespace nonet::world {
 
-struct WorldModel::Stages {
-  Stages(const model::RobotModel& model, const WorldParameters& parameters, const protocol::TeamName& team)
-      : body(model, parameters), game(team) {}
-
-  BodyTracker body;
-  GameTracker game;
-  WorldState state;
-};
-
 namespace {
 
-/// Rotation from the torso's axes to level axes with the torso's heading.
-Matrix3 levelRotation(const BodyState& body) {
-  return Eigen::AngleAxisd(-body.yaw, Vector3::UnitZ()).toRotationMatrix() * body.R_GR;
+constexpr int kBeamDelay = 2;            // messages from a command to its effect (server facts 1.2)
+constexpr double kLocalizedSigma = 0.3;  // m
+constexpr double kLocalizedAngle = 0.2;  // rad
+constexpr double kLocalizedAge = 5.0;    // s without a landmark
+
+/// X_FW: the world as seen by a team that plays from the right is turned by 180 degrees.
+Pose3 fieldFromWorld(bool fromRight) {
+  Pose3 X_FW = Pose3::Identity();
+  if (fromRight) X_FW.linear() = Vector3(-1.0, -1.0, 1.0).asDiagonal();
+  return X_FW;
 }
 
-void followBall(const protocol::Percept& percept, const BodyState& body, BallState& ball) {
-  const Pose2 back = body.odometryStep.inverse();
-  ball.p_RB = back * ball.p_RB;
-  if (percept.vision && percept.vision->ball) {
-    const Vector3 p_RB = model::cameraPose(body.bodies) * percept.vision->ball->cartesian();
-    ball.p_RB = (levelRotation(body) * p_RB).head<2>();
-    ball.lastSeen = percept.time;
+double headingOf(const Matrix3& R) {
+  return std::atan2(R(1, 0), R(0, 0));
+}
+
+/// Covariance of (x, y, heading) of a point fixed to the robot, `arm` from the torso in field axes.
+Matrix3 planarCovariance(const BeliefMatrix& P, const Vector3& arm, bool turned) {
+  // The point moves by dp + dtheta x arm.
+  Eigen::Matrix<double, 3, 6> J = Eigen::Matrix<double, 3, 6>::Zero();
+  J(0, 0) = J(1, 1) = J(2, 5) = 1.0;
+  J(0, 4) = arm.z();
+  J(0, 5) = -arm.y();
+  J(1, 3) = -arm.z();
+  J(1, 5) = arm.x();
+  Matrix3 covariance = J * P.topLeftCorner<6, 6>() * J.transpose();
+  if (turned) {
+    // Half a turn of the axes changes the sign of x and y together.
+    covariance.block<2, 1>(0, 2) *= -1.0;
+    covariance.block<1, 2>(2, 0) *= -1.0;
   }
-  ball.known = percept.time - ball.lastSeen < 3.0;
+  return covariance;
 }
 
 }  // namespace
 
+struct WorldModel::Stages {
+  Stages(const model::RobotModel& model, const WorldParameters& parameters, const protocol::TeamName& team,
+         std::uint64_t seed, const LocalizationOptions& options)
+      : body(model, parameters), game(team), localization(seed, options) {}
+
+  void fillSelf();
+  void followBeam();
+  void followBall(const protocol::Percept& percept);
+
+  BodyTracker body;
+  GameTracker game;
+  Localization localization;
+  WorldState state;
+  std::array<std::optional<Pose2>, kBeamDelay> beams;  // asked for, newest last
+};
+
+void WorldModel::Stages::fillSelf() {
+  const PoseBelief& belief = localization.belief();
+  const bool fromRight = playsFromRight(state.game);
+  const Pose3 X_FW = fieldFromWorld(fromRight);
+  const Pose3 X_FR = X_FW * belief.pose();
+  const Pose3 X_RC = model::cameraPose(state.body.bodies);
+  SelfState& self = state.self;
+  self.X_FR = Pose2(X_FR.translation().x(), X_FR.translation().y(), headingOf(X_FR.linear()));
+  self.X_FC = X_FR * X_RC;
+  self.height = X_FR.translation().z();
+  self.covariance = planarCovariance(belief.covariance, Vector3::Zero(), fromRight);
+  self.cameraCovariance = planarCovariance(belief.covariance, belief.R_WR * X_RC.translation(), fromRight);
+  self.lastCorrection = localization.lastCorrection();
+  const double position = std::sqrt(std::max(self.covariance(0, 0), self.covariance(1, 1)));
+  const double heading = std::sqrt(self.covariance(2, 2));
+  self.localized = localization.initialised() && !isFallen(state.body.posture) &&
+                   position < kLocalizedSigma && heading < kLocalizedAngle &&
+                   state.time - self.lastCorrection < kLocalizedAge;
+}
+
+void WorldModel::Stages::followBeam() {
+  // A request counts two messages later, and only in the phases in which the server obeys (server facts 4.6).
+  const std::optional<Pose2> due = beams[0];
+  for (std::size_t i = 0; i + 1 < beams.size(); ++i) beams[i] = beams[i + 1];
+  beams.back().reset();
+  const Phase phase = state.game.phase;
+  const bool allowed =
+      phase == Phase::BeforeKickOff || phase == Phase::OwnGoal || phase == Phase::OpponentGoal;
+  if (!due || !allowed) return;
+  body.resetUpright(state.body);
+  const Pose2 X_WR = playsFromRight(state.game) ? Pose2(0.0, 0.0, kPi) * *due : *due;
+  localization.placeAt(X_WR, state.body);
+}
+
+void WorldModel::Stages::followBall(const protocol::Percept& percept) {
+  BallState& ball = state.ball;
+  const BodyState& body = state.body;
+  ball.p_RB = body.odometryStep.inverse() * ball.p_RB;
+  if (percept.vision && percept.vision->ball) {
+    const Vector3 p_CB = percept.vision->ball->cartesian() - localization.belief().offset;
+    ball.p_FB = state.self.X_FC * p_CB;
+    ball.p_RB = state.self.X_FR.inverse() * Vector2(ball.p_FB.head<2>());
+    ball.lastSeen = percept.time;
+  }
+  ball.p_FRest = ball.p_FB.head<2>();
+  ball.known = percept.time - ball.lastSeen < 3.0;
+}
+
 WorldModel::WorldModel(const model::RobotModel& model, const WorldParameters& parameters,
-                       const protocol::TeamName& team, std::uint64_t /*seed*/)
-    : stages_(std::make_unique<Stages>(model, parameters, team)) {}
+                       const protocol::TeamName& team, std::uint64_t seed, const LocalizationOptions& options)
+    : stages_(std::make_unique<Stages>(model, parameters, team, seed, options)) {}
 
 WorldModel::~WorldModel() = default;
 
 const WorldState& WorldModel::update(const protocol::Percept& percept) {
-  WorldState& state = stages_->state;
-  if (!stages_->body.update(percept, state.body)) return state;
+  Stages& stages = *stages_;
+  WorldState& state = stages.state;
+  if (!stages.body.update(percept, state.body)) return state;
   state.time = percept.time;
-  stages_->game.update(percept, state.game);
-  followBall(percept, state.body, state.ball);
-  state.self.X_FR = state.body.odometry;
-  state.self.height = state.body.torsoHeight;
+  stages.game.update(percept, state.game);
+  stages.followBeam();
+  const protocol::Vision* vision = percept.vision ? &*percept.vision : nullptr;
+  stages.localization.update(state.body, vision);
+  state.field = stages.localization.map().geometry();
+  if (stages.localization.lastCorrection() == state.time) {
+    stages.body.correctTilt(stages.localization.tiltCorrection(), state.body);
+    stages.game.noticePlace(stages.localization.belief().p_WR.x(), state.game);
+  }
+  stages.fillSelf();
+  stages.followBall(percept);
   return state;
 }
 
-void WorldModel::expectBeam(const Pose2& /*X_FR*/) {}
+void WorldModel::expectBeam(const Pose2& X_FR) {
+  stages_->beams.back() = X_FR;
+}
+
+const Localization& WorldModel::localization() const {
+  return stages_->localization;
+}
 
 }  // namespace nonet::world

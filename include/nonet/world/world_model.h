@@ -5,6 +5,7 @@
 
 #include "nonet/model/robot_model.h"
 #include "nonet/protocol/percept.h"
+#include "nonet/world/localization.h"
 #include "nonet/world/parameters.h"
 #include "nonet/world/world_state.h"
 
@@ -13,7 +14,7 @@ namespace nonet::world {
 class WorldModel {
  public:
   WorldModel(const model::RobotModel& model, const WorldParameters& parameters,
-             const protocol::TeamName& team, std::uint64_t seed);
+             const protocol::TeamName& team, std::uint64_t seed, const LocalizationOptions& options = {});
   ~WorldModel();
 
   /// Absorbs one message. The reference stays valid until the next call.
@@ -21,6 +22,9 @@ class WorldModel {
 
   /// Tells the localization that the robot asked to be beamed to X_FR (own field frame).
   void expectBeam(const Pose2& X_FR);
+
+  /// For measurements.
+  const Localization& localization() const;
 
  private:
   struct Stages;

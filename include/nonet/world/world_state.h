@@ -84,12 +84,13 @@ struct GameState {
 };
 
 struct SelfState {
-  Pose2 X_FR;                                // torso on the ground, heading
-  Matrix3 covariance = Matrix3::Identity();  // of (x, y, heading)
-  Pose3 X_FC = Pose3::Identity();            // camera
-  double height = 0.0;                       // of the torso, m
-  bool localized = false;                    // good enough to act on
-  double lastCorrection = kNever;            // server time of the last landmark used, s
+  Pose2 X_FR;                                      // torso on the ground, heading
+  Matrix3 covariance = Matrix3::Identity();        // of (x, y, heading)
+  Pose3 X_FC = Pose3::Identity();                  // camera
+  Matrix3 cameraCovariance = Matrix3::Identity();  // of the camera's x, y (m) and the heading (rad)
+  double height = 0.0;                             // of the torso, m
+  bool localized = false;                          // good enough to act on
+  double lastCorrection = kNever;                  // server time of the last landmark used, s
 };
 
 struct BallState {
