@@ -1,0 +1,452 @@
+#include "nonet/sim/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <spdlog/spdlog.h>
+
+#include "nonet/protocol/rounding.h"
+
+#include "simulation_implementation.h"
+
+namespace nonet::sim {
+
+namespace {
+
+constexpr float kStep = 0.02F;  // s
+constexpr std::uint64_t kRefereeStream = 1;
+constexpr std::uint64_t kPlayerStream = 0x100;       // + 16 * side + number
+constexpr std::uint64_t kConnectionStream = 0x1000;  // + handle
+
+VisionField::Size fieldSize(const Settings& s) {
+  return {s.fieldLength, s.fieldWidth,    s.goalWidth,    s.goalDepth,
+          s.goalHeight,  s.penaltyLength, s.penaltyWidth, s.freeKickDistance};
+}
+
+}  // namespace
+
+Simulation::Implementation::Implementation(const Settings& s, std::uint64_t seed)
+    : settings(s),
+      random(seed),
+      world(s.world()),
+      referee(settings, world, players, random.fork(kRefereeStream).next()),
+      trainer(world, referee, players),
+      field(fieldSize(settings)) {
+  updateMatch();
+}
+
+Agent* Simulation::Implementation::find(AgentHandle handle) {
+  const auto it = std::find_if(agents.begin(), agents.end(),
+                               [handle](const auto& agent) { return agent->handle == handle; });
+  return it == agents.end() ? nullptr : it->get();
+}
+
+const Agent* Simulation::Implementation::find(AgentHandle handle) const {
+  return const_cast<Implementation*>(this)->find(handle);
+}
+
+Player* Simulation::Implementation::playerOf(const Agent& agent) {
+  for (Player& player : players) {
+    if (player.agent == agent.handle) return &player;
+  }
+  return nullptr;
+}
+
+Agent& Simulation::Implementation::addAgent() {
+  auto agent = std::make_unique<Agent>();
+  agent->handle = nextHandle++;
+  agent->noise = random.fork(kConnectionStream + static_cast<std::uint64_t>(agent->handle));
+  agents.push_back(std::move(agent));
+  return *agents.back();
+}
+
+// Server facts 1.2, phase 1: immediate effectors act, deferred ones are kept.
+void Simulation::Implementation::receive(Agent& agent, const protocol::Effectors& message) {
+  const Player* player = playerOf(agent);
+  if (message.scene) agent.scene = message.scene;
+  // All other effectors come with the robot: what arrives with the scene message is lost (server facts 1.3).
+  if (player == nullptr) return;
+  for (std::size_t i = 0; i < model::kJointCount; ++i) {
+    const model::JointId joint = model::jointAt(i);
+    if (!message.hasSpeed(joint)) continue;
+    const float speed = static_cast<float>(message.speeds[i]);
+    if (std::isnan(speed)) {
+      // The server lets it through and its physics breaks; a safe world is worth more.
+      spdlog::warn("player {}: speed of {} is not a number, ignored", player->unum,
+                   model::effectorName(joint));
+      continue;
+    }
+    world.setJointSpeed(player->robot, joint, speed);
+  }
+  if (message.say) broadcast(*player, message.say->view());
+  if (message.init) agent.init = message.init;
+  if (message.beam) agent.beam = message.beam;
+  agent.pass = agent.pass || message.pass;
+}
+
+// Server facts 1.7.
+void Simulation::Implementation::broadcast(const Player& sender, std::string_view message) {
+  if (!protocol::isSayable(message)) return;
+  constexpr float kRange = 50.0F;  // m
+  const auto torso = [this](const Player& player) {
+    return world.bodyPose(player.robot, model::BodyId::Torso).position;
+  };
+  const Vector3f from = torso(sender);
+  for (const Player& listener : players) {
+    Agent* agent = find(listener.agent);
+    if (listener.agent == sender.agent) {
+      agent->ear.hearSelf(message);
+      continue;
+    }
+    if (sender.side == TeamSide::None || listener.side == TeamSide::None) continue;
+    Vector3f away = from - torso(listener);
+    if (away.norm() >= kRange) continue;
+    // Not relative to the listener's heading: the bearing in its team's field frame.
+    if (listener.side == TeamSide::Right) away = -away;
+    const float direction = static_cast<float>(std::atan2(away.y(), away.x()) * (180.0 / kPi));
+    agent->ear.hearOther(message, sender.team, direction, listener.side == sender.side);
+  }
+}
+
+void Simulation::Implementation::executeDeferred(Agent& agent) {
+  if (agent.enters) {
+    agent.enters = false;
+    // Number and side are wanted before the robot is built, because its calibration error depends on them.
+    initialise(agent, *agent.init);
+    agent.scene.reset();
+    agent.init.reset();
+    return;
+  }
+  if (agent.scene) {
+    buildRobot(agent, *agent.scene);
+    agent.scene.reset();
+  }
+  if (playerOf(agent) == nullptr) return;
+  if (agent.init) {
+    initialise(agent, *agent.init);
+    agent.init.reset();
+  }
+  if (agent.beam) {
+    beam(agent, *agent.beam);
+    agent.beam.reset();
+  }
+  if (agent.pass) {
+    referee.requestPassMode(*playerOf(agent));
+    agent.pass = false;
+  }
+}
+
+void Simulation::Implementation::buildRobot(Agent& agent, const protocol::Effectors::Scene& scene) {
+  const std::string_view file = scene.file;
+  const bool known =
+      file.empty() || file == "rsg/agent/nao/nao.rsg" || file == "rsg/agent/nao/nao_hetero.rsg";
+  if (!known) {
+    spdlog::warn("agent {}: unknown scene file '{}'", agent.handle, file);
+    return;
+  }
+  const int type = file == "rsg/agent/nao/nao.rsg" ? 0 : scene.robotType;
+  if (type < 0 || type >= model::kRobotTypeCount) {
+    spdlog::warn("agent {}: there is no robot type {}, types are 0 to {}", agent.handle, type,
+                 model::kRobotTypeCount - 1);
+    return;
+  }
+  if (playerOf(agent) != nullptr) {
+    // The server builds a second robot inside the same agent, with every perceptor twice: of no use to
+    // anybody.
+    spdlog::warn("agent {}: has a robot already, second scene message ignored", agent.handle);
+    return;
+  }
+  Player player;
+  player.agent = agent.handle;
+  player.robot = world.addRobot(type);
+  player.robotType = type;
+  player.touchGroup = referee.newTouchGroup();
+  players.push_back(player);
+  // Players stay in the order in which their agents connected.
+  std::sort(players.begin(), players.end(),
+            [](const Player& a, const Player& b) { return a.agent < b.agent; });
+  agent.sensors = AgentSensors(agent.noise);
+  ++sceneVersion;
+}
+
+void Simulation::Implementation::seedFor(Agent& agent, TeamSide side, int unum) const {
+  agent.noise = random.fork(kPlayerStream + 16 * index(side) + static_cast<std::uint64_t>(unum));
+}
+
+// Server facts 1.3. Every init moves the robot to its side's next start position, also a refused one.
+void Simulation::Implementation::initialise(Agent& agent, const protocol::Effectors::Init& init) {
+  const bool entering = playerOf(agent) == nullptr;
+  const int type = entering ? agent.scene->robotType : playerOf(agent)->robotType;
+  TeamSide side = TeamSide::None;
+  int unum = init.unum;
+  const auto refusal = referee.game().registerPlayer(init.team, type, side, unum, settings);
+  const bool accepted = refusal == GameState::Refusal::None;
+  if (accepted) {
+    seedFor(agent, side, unum);
+    spdlog::info("agent {}: number {} of team {} ({}), robot type {}", agent.handle, unum,
+                 std::string_view(init.team), side == TeamSide::Left ? "left" : "right", type);
+  } else {
+    constexpr std::array<const char*, 5> kReasons = {
+        "", "there are two teams already", "the number is taken or the team is full", "numbers are 1 to 11",
+        "the rules on robot types forbid it"};
+    spdlog::warn("agent {}: init as number {} of team {} with robot type {} refused: {}", agent.handle,
+                 init.unum, std::string_view(init.team), type, kReasons[static_cast<std::size_t>(refusal)]);
+  }
+  if (entering) buildRobot(agent, *agent.scene);
+  Player* player = playerOf(agent);
+  if (player == nullptr) {
+    referee.game().releasePlayer(side, unum, type);
+    return;
+  }
+  if (accepted) {
+    // The server forgets to give the old number back when somebody repeats init; that leak helps nobody.
+    referee.game().releasePlayer(player->side, player->unum, player->robotType);
+    player->side = side;
+    player->unum = unum;
+    player->team = init.team;
+    ++sceneVersion;
+  }
+  const Vector3f start = referee.game().nextStartPosition(player->side, settings);
+  world.placeRobot(player->robot, start, GameState::startYaw(player->side));
+}
+
+// Server facts 4.6.
+void Simulation::Implementation::beam(Agent& agent, const Pose2& request) {
+  const Player& player = *playerOf(agent);
+  const PlayMode mode = referee.game().playMode();
+  if (mode != PlayMode::BeforeKickOff && mode != PlayMode::GoalLeft && mode != PlayMode::GoalRight) return;
+  const float noiseXY = static_cast<float>(settings.beamNoiseXY);
+  const float noiseAngle = static_cast<float>(settings.beamNoiseAngle);
+  const auto uniform = [&agent] { return static_cast<float>(agent.noise.uniform(-1.0, 1.0)); };
+  Vector3f position = Vector3f::Zero();
+  position.x() = static_cast<float>(request.translation.x()) + noiseXY * uniform();
+  position.y() = static_cast<float>(request.translation.y()) + noiseXY * uniform();
+  float angle = static_cast<float>(toDegrees(request.rotation)) + noiseAngle * uniform();
+  if (!std::isfinite(position.x()) || !std::isfinite(position.y()) || !std::isfinite(angle)) {
+    spdlog::warn("player {}: beam with a number that is not finite, ignored", player.unum);
+    return;
+  }
+  if (!settings.startAnyFieldPosition) {
+    const float halfLength = static_cast<float>(settings.fieldLength) / 2.0F;
+    const float halfWidth = static_cast<float>(settings.fieldWidth) / 2.0F;
+    position.x() = std::clamp(position.x(), -halfLength, 0.0F);
+    position.y() = std::clamp(position.y(), -halfWidth, halfWidth);
+  }
+  position.z() = static_cast<float>(settings.agentRadius);
+  if (player.side == TeamSide::Right) position.head<2>() = -position.head<2>();
+  angle += GameState::startYaw(player.side);
+  world.placeRobot(player.robot, position, angle);
+}
+
+void Simulation::Implementation::removeGoneAgents() {
+  for (const auto& agent : agents) {
+    if (!agent->gone) continue;
+    const Player* player = playerOf(*agent);
+    if (player == nullptr) continue;
+    referee.game().releasePlayer(player->side, player->unum, player->robotType);
+    world.removeRobot(player->robot);
+    players.erase(players.begin() + (player - players.data()));
+    ++sceneVersion;
+  }
+  std::erase_if(agents, [](const auto& agent) { return agent->gone; });
+}
+
+// Players whose init has not succeeded are not seen (server facts 1.6).
+void Simulation::Implementation::listVisiblePlayers() {
+  visible.clear();
+  for (const Player& player : players) {
+    if (player.side != TeamSide::None) visible.push_back({player.robot, player.team, player.unum});
+  }
+}
+
+// The message of server facts 1.5, as values. Rounding: protocol/rounding.h.
+void Simulation::Implementation::makeSenses(Agent& agent) {
+  const int count = agent.senseCount++;
+  const Player* player = playerOf(agent);
+  agent.hasMade = player != nullptr;
+  if (player == nullptr) return;
+  protocol::Percept& percept = agent.made;
+  percept.clear();
+  percept.time = protocol::roundToWire(serverTime);
+  percept.order.push_back({protocol::PerceptKind::Time, 0});
+
+  protocol::GameStatus& game = percept.game;
+  if (!agent.announced && player->side != TeamSide::None) {
+    agent.announced = true;
+    game.unum = player->unum;
+    game.side = player->side;
+  }
+  if (settings.reportScore) {
+    game.scoreLeft = match.scoreLeft;
+    game.scoreRight = match.scoreRight;
+  }
+  game.time = protocol::roundToWire(match.time);
+  game.playMode = match.playMode;
+  game.playModeText = protocol::playModeName(match.playMode);
+  percept.order.push_back({protocol::PerceptKind::GameState, 0});
+
+  agent.ear.deliver(player->team, match.time, settings.labelMessages, percept);
+  constexpr int kVisionInterval = 3;
+  SensorContext context;
+  context.field = &field;
+  context.players = visible;
+  context.side = player->side;
+  context.vision = count % kVisionInterval == 0;
+  context.noise = settings.visionNoise;
+  context.truePosition = settings.senseMyPos;
+  context.trueHeading = settings.senseMyOrien;
+  context.trueBallPosition = settings.senseBallPos;
+  agent.sensors.fill(world, player->robot, context, agent.noise, percept);
+}
+
+void Simulation::Implementation::updateMatch() {
+  const GameState& game = referee.game();
+  match.playMode = game.playMode();
+  match.time = game.time();
+  match.serverTime = serverTime;
+  match.half = game.half();
+  match.scoreLeft = game.score(TeamSide::Left);
+  match.scoreRight = game.score(TeamSide::Right);
+  match.teamLeft = game.teamName(TeamSide::Left);
+  match.teamRight = game.teamName(TeamSide::Right);
+  match.passModeScoreWaitLeft = game.passModeScoreWait(TeamSide::Left, settings);
+  match.passModeScoreWaitRight = game.passModeScoreWait(TeamSide::Right, settings);
+}
+
+Simulation::Simulation(const Settings& settings, std::uint64_t seed)
+    : implementation_(std::make_unique<Implementation>(settings, seed)) {}
+
+Simulation::~Simulation() = default;
+
+const Settings& Simulation::settings() const {
+  return implementation_->settings;
+}
+
+AgentHandle Simulation::connect() {
+  return implementation_->addAgent().handle;
+}
+
+AgentHandle Simulation::enter(const protocol::Effectors::Scene& scene,
+                              const protocol::Effectors::Init& init) {
+  Agent& agent = implementation_->addAgent();
+  agent.enters = true;
+  agent.scene = scene;
+  agent.init = init;
+  return agent.handle;
+}
+
+void Simulation::disconnect(AgentHandle agent) {
+  if (Agent* found = implementation_->find(agent)) found->gone = true;
+}
+
+bool Simulation::isConnected(AgentHandle agent) const {
+  const Agent* found = implementation_->find(agent);
+  return found != nullptr && !found->gone;
+}
+
+void Simulation::act(AgentHandle agent, const protocol::Effectors& effectors) {
+  if (Agent* found = implementation_->find(agent)) {
+    found->inbox.push_back(effectors);
+    protocol::roundAsWritten(found->inbox.back());
+  }
+}
+
+void Simulation::actAsReceived(AgentHandle agent, const protocol::Effectors& effectors) {
+  if (Agent* found = implementation_->find(agent)) found->inbox.push_back(effectors);
+}
+
+const protocol::Percept* Simulation::sense(AgentHandle agent) const {
+  const Agent* found = implementation_->find(agent);
+  return found != nullptr && found->hasSent ? &found->sent : nullptr;
+}
+
+bool Simulation::sense(AgentHandle agent, protocol::Percept& percept) const {
+  const protocol::Percept* sent = sense(agent);
+  if (sent != nullptr) percept = *sent;
+  return sent != nullptr;
+}
+
+std::vector<AgentInfo> Simulation::agents() const {
+  std::vector<AgentInfo> infos;
+  for (const auto& agent : implementation_->agents) {
+    AgentInfo info;
+    info.handle = agent->handle;
+    if (const Player* player = implementation_->playerOf(*agent)) {
+      info.robot = player->robot;
+      info.side = player->side;
+      info.unum = player->unum;
+      info.robotType = player->robotType;
+      info.team = player->team;
+      info.selected = player->selected;
+    }
+    infos.push_back(info);
+  }
+  return infos;
+}
+
+void Simulation::step() {
+  beginCycle();
+  finishCycle();
+}
+
+void Simulation::beginCycle() {
+  for (const auto& agent : implementation_->agents) {
+    if (!agent->gone) {
+      for (const protocol::Effectors& message : agent->inbox) implementation_->receive(*agent, message);
+    }
+    agent->inbox.clear();
+  }
+  for (const auto& agent : implementation_->agents) {
+    std::swap(agent->made, agent->sent);
+    agent->hasSent = agent->hasMade;
+  }
+}
+
+void Simulation::finishCycle() {
+  Implementation& self = *implementation_;
+  self.world.prePhysics();
+  for (const auto& agent : self.agents) {
+    if (!agent->gone) self.executeDeferred(*agent);
+  }
+  self.world.stepPhysics();
+  self.removeGoneAgents();
+  const TeamName leftBefore = self.referee.game().teamName(TeamSide::Left);
+  self.referee.update(static_cast<int>(self.agents.size()));
+  if (!(self.referee.game().teamName(TeamSide::Left) == leftBefore))
+    ++self.sceneVersion;  // sides were changed
+  self.serverTime += kStep;
+  self.updateMatch();
+  self.listVisiblePlayers();
+  for (const auto& agent : self.agents) self.makeSenses(*agent);
+}
+
+const World& Simulation::world() const {
+  return implementation_->world;
+}
+World& Simulation::world() {
+  return implementation_->world;
+}
+const MatchState& Simulation::match() const {
+  return implementation_->match;
+}
+std::span<const FoulRecord> Simulation::fouls() const {
+  return implementation_->referee.fouls();
+}
+std::uint64_t Simulation::sceneVersion() const {
+  return implementation_->sceneVersion;
+}
+
+bool Simulation::trainer(std::string_view message) {
+  const Trainer::Outcome outcome = implementation_->trainer.execute(message);
+  for (const AgentHandle agent : outcome.killed) {
+    // The server leaves the connection open and repeats the last message for ever; here the agent is
+    // disconnected.
+    spdlog::info("trainer: agent {} is killed", agent);
+    disconnect(agent);
+  }
+  if (outcome.fullState) ++implementation_->sceneVersion;
+  implementation_->updateMatch();
+  return !outcome.endSimulation;
+}
+
+}  // namespace nonet::sim
