@@ -14,7 +14,8 @@
 //
 // Groups nest: `visit.group("walk", self.walk);` gives keys like "walk.stepHeight" (a TOML table).
 // Fields are double, int or bool. Values in files are SI numbers or texts with a unit: "17deg", "97mm",
-// "20ms".
+// "20ms", "1.5m/s", "30deg/s", "9.81m/s^2", "2N", "350g", "50Hz". A text is exact where the unit is decimal:
+// "97mm" is the same double as 0.097; "17deg" is that of toRadians(17).
 #pragma once
 
 #include <concepts>
@@ -111,6 +112,7 @@ void overlayFile(const std::vector<Field>& fields, const std::string& path);
 void overlayText(const std::vector<Field>& fields, std::string_view toml, const std::string& nameForErrors);
 void set(const std::vector<Field>& fields, std::string_view key, double value);
 std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* unlessEqualTo);
+std::vector<std::string> declarationFaults(const std::vector<Field>& fields);
 
 }  // namespace detail
 
@@ -142,13 +144,22 @@ void overlayText(Parameters& parameters, std::string_view toml, const std::strin
   parameters = copy;
 }
 
-/// Sets one value by its full key (range checked).
+/// Sets one value by its full key. Range checked; an int needs a whole number, a bool 0 or 1. Otherwise, and
+/// for an unknown key, ParameterError and no change.
 template <class Parameters>
 void setParameter(Parameters& parameters, std::string_view key, double value) {
   detail::set(fieldsOf(parameters), key, value);
 }
 
+/// What is wrong with the declarations themselves, one line each, for tests: a key used twice or not usable
+/// in TOML, a default or a search range outside the range, an empty sentence.
+template <class Parameters>
+std::vector<std::string> declarationFaults(Parameters parameters) {
+  return detail::declarationFaults(fieldsOf(parameters));
+}
+
 /// TOML of all values, or only of those that differ from `base`, with the sentence of each as a comment.
+/// Reading it gives the same bits.
 template <class Parameters>
 std::string toToml(Parameters parameters) {
   return detail::toToml(fieldsOf(parameters), nullptr);

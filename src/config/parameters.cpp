@@ -1,0 +1,213 @@
+#include "nonet/config/parameters.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "fields.h"
+
+namespace nonet::config::detail {
+
+namespace {
+
+std::string_view groupOf(std::string_view key) {
+  const auto dot = key.rfind('.');
+  return dot == std::string_view::npos ? std::string_view() : key.substr(0, dot);
+}
+
+std::string_view lastPart(std::string_view key) {
+  const auto dot = key.rfind('.');
+  return dot == std::string_view::npos ? key : key.substr(dot + 1);
+}
+
+bool isBareKey(std::string_view key) {
+  return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::string tomlValue(const Field& field) {
+  if (field.boolean != nullptr) return *field.boolean ? "true" : "false";
+  if (field.integer != nullptr) return fmt::format("{}", *field.integer);
+  return realText(*field.real);
+}
+
+void appendField(const Field& field, std::string& toml) {
+  const Declaration& declaration = field.declaration;
+  toml += fmt::format("# {}", declaration.text);
+  if (field.boolean == nullptr) {
+    toml += fmt::format(" ({} .. {})", quantityText(declaration.range.low, declaration.unit),
+                        quantityText(declaration.range.high, declaration.unit));
+  }
+  toml += fmt::format("\n{} = {}\n", lastPart(field.key), tomlValue(field));
+}
+
+bool sameBits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+// Levenshtein's distance.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+double valueOf(const Field& field) {
+  if (field.boolean != nullptr) return *field.boolean ? 1.0 : 0.0;
+  if (field.integer != nullptr) return *field.integer;
+  return *field.real;
+}
+
+std::string realText(double value) {
+  std::string text = fmt::format("{}", value);
+  // TOML tells real numbers from whole ones by the point or the exponent.
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string quantityText(double value, Unit unit) {
+  std::string text = fmt::format("{}", value);
+  if (unit != Unit::None) text += fmt::format(" {}", unitName(unit));
+  return text;
+}
+
+std::string nearestName(const std::vector<Field>& fields, std::string_view name) {
+  std::set<std::string> names;
+  for (const Field& field : fields) {
+    names.insert(field.key);
+    for (std::string_view group = groupOf(field.key); !group.empty(); group = groupOf(group)) {
+      names.insert(std::string(group));
+    }
+  }
+  std::string best;
+  std::size_t bestDistance = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : names) {
+    // Somebody who left the group out meant the same last part.
+    const std::size_t distance =
+        std::min(editDistance(name, candidate), editDistance(lastPart(name), lastPart(candidate)) + 1);
+    if (distance < bestDistance) {
+      bestDistance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+void assign(const Field& field, double value, const std::string& where) {
+  const Declaration& declaration = field.declaration;
+  if (field.boolean != nullptr) {
+    if (value != 0.0 && value != 1.0) {
+      throw ParameterError(fmt::format("{}{} is a switch: use true or false", where, field.key));
+    }
+    *field.boolean = value != 0.0;
+    return;
+  }
+  // Written so that "not a number" is outside too.
+  if (!(value >= declaration.range.low && value <= declaration.range.high)) {
+    throw ParameterError(fmt::format(
+        "{}{} = {} is out of range: use {} .. {} ({})", where, field.key,
+        quantityText(value, declaration.unit), quantityText(declaration.range.low, declaration.unit),
+        quantityText(declaration.range.high, declaration.unit), declaration.text));
+  }
+  if (field.integer != nullptr) {
+    if (value != std::floor(value)) {
+      throw ParameterError(fmt::format("{}{} = {} must be a whole number", where, field.key, value));
+    }
+    *field.integer = static_cast<int>(value);
+    return;
+  }
+  *field.real = value;
+}
+
+std::vector<ParameterView> views(const std::vector<Field>& fields) {
+  std::vector<ParameterView> list;
+  list.reserve(fields.size());
+  for (const Field& field : fields) {
+    ParameterView view;
+    view.key = field.key;
+    view.declaration = field.declaration;
+    if (field.integer != nullptr) view.kind = ParameterView::Kind::Integer;
+    if (field.boolean != nullptr) view.kind = ParameterView::Kind::Boolean;
+    view.value = valueOf(field);
+    list.push_back(std::move(view));
+  }
+  return list;
+}
+
+void set(const std::vector<Field>& fields, std::string_view key, double value) {
+  for (const Field& field : fields) {
+    if (field.key == key) return assign(field, value, "");
+  }
+  throw ParameterError(
+      fmt::format("unknown parameter '{}': did you mean '{}'?", key, nearestName(fields, key)));
+}
+
+std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* unlessEqualTo) {
+  assert(unlessEqualTo == nullptr || unlessEqualTo->size() == fields.size());
+  // TOML wants each table once and plain keys first, whatever the order of the declarations.
+  std::vector<std::string> groups{""};
+  for (const Field& field : fields) {
+    const std::string group(groupOf(field.key));
+    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+  }
+  std::string toml;
+  for (const std::string& group : groups) {
+    std::string body;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (groupOf(fields[i].key) != group) continue;
+      if (unlessEqualTo != nullptr && sameBits(valueOf(fields[i]), valueOf((*unlessEqualTo)[i]))) continue;
+      appendField(fields[i], body);
+    }
+    if (body.empty()) continue;
+    if (!toml.empty()) toml += '\n';
+    if (!group.empty()) toml += fmt::format("[{}]\n", group);
+    toml += body;
+  }
+  return toml;
+}
+
+std::vector<std::string> declarationFaults(const std::vector<Field>& fields) {
+  std::vector<std::string> faults;
+  const auto fault = [&](const Field& field, std::string_view what) {
+    faults.push_back(fmt::format("{}: {}", field.key, what));
+  };
+  std::set<std::string> keys;
+  std::set<std::string> groups;
+  for (const Field& field : fields) groups.insert(std::string(groupOf(field.key)));
+  for (const Field& field : fields) {
+    const Range& range = field.declaration.range;
+    if (!keys.insert(field.key).second) fault(field, "declared twice");
+    if (groups.count(field.key) != 0) fault(field, "is the name of a group too");
+    if (field.key.rfind("provenance", 0) == 0)
+      fault(field, "the name is kept for the origin of learned values");
+    if (!isBareKey(lastPart(field.key))) fault(field, "the key needs letters, digits, '_' or '-' only");
+    if (field.declaration.text.empty()) fault(field, "has no sentence");
+    if (field.boolean != nullptr) continue;
+    if (!(range.low <= range.high)) fault(field, "the range is empty");
+    const double value = valueOf(field);
+    if (!(value >= range.low && value <= range.high)) fault(field, "the default is out of range");
+    if (const auto& wanted = field.declaration.searchRange) {
+      if (!(wanted->low < wanted->high)) fault(field, "the search range is empty");
+      if (wanted->low < range.low || wanted->high > range.high)
+        fault(field, "the search range leaves the range");
+    }
+  }
+  return faults;
+}
+
+}  // namespace nonet::config::detail
