@@ -158,9 +158,10 @@ void WalkEngine::moveSwingFoot(const Tilt& tilt) {
   // Half a step ahead of where the walk frame will be at the landing; the other half follows while the foot
   // is stance foot.
   const double side = sign * (0.5 * p.ySep + p.turnOut * std::abs(step_.rotation));
+  const double outwards = sign * (p.footYaw + p.turnYaw * std::abs(step_.rotation));
   Pose2 landing =
-      scaled(step_, 1.0 - phase_) * Pose2(0.5 * step_.translation.x(), side + 0.5 * step_.translation.y(),
-                                          0.5 * step_.rotation + sign * p.footYaw);
+      scaled(step_, 1.0 - phase_) *
+      Pose2(0.5 * step_.translation.x(), side + 0.5 * step_.translation.y(), 0.5 * step_.rotation + outwards);
   landing.translation.x() += p.stepPitchGain * tilt.pitch + p.stepPitchRateGain * tilt.pitchRate;
   landing.translation.y() -= p.stepRollGain * tilt.roll + p.stepRollRateGain * tilt.rollRate;
   const double moved = halfCosine(phase_, p.fS, p.fM);

@@ -12,10 +12,10 @@ namespace nonet::motion {
 
 struct WalkParameters {
   // Step sizes
-  double maxStepX = 0.035;
-  double maxStepXBack = 0.03;
-  double maxStepY = 0.025;
-  double maxStepTheta = 0.15;
+  double maxStepX = 0.07;
+  double maxStepXBack = 0.05;
+  double maxStepY = 0.045;
+  double maxStepTheta = 0.25;
   double combineExponent = 1.5;
   double deltaStepX = 0.15;
   double deltaStepY = 0.15;
@@ -24,13 +24,13 @@ struct WalkParameters {
   double maxChangeY = 0.004;
   double maxChangeTheta = 0.03;
   // Pendulum and torso
-  double phiLength = 0.08;
+  double phiLength = 0.12;
   double zTorso = 0.88;
   double yShift = 0.0;
   double swayFactor = 1.0;
   double xPendulum = 1.0;
   double pendulumHeight = 0.26;
-  double xOffset = -0.005;
+  double xOffset = -0.015;
   double xFactor = 0.0;
   double yFactor = 0.0;
   double torsoPitch = 0.0;
@@ -50,6 +50,7 @@ struct WalkParameters {
   double footPitch = 0.0;
   double footRoll = 0.0;
   double footYaw = 0.0;
+  double turnYaw = 0.5;
   double turnOut = 0.0;
   double startLift = 0.5;
   // Feedback
@@ -236,6 +237,12 @@ struct WalkParameters {
           self.footRoll);
     visit({"footYaw", Unit::Radian, {-0.5, 0.8}, search(-0.1, 0.2), "Both feet: toes outwards"},
           self.footYaw);
+    visit({"turnYaw",
+           Unit::None,
+           {-1.0, 2.0},
+           search(0.3, 0.7),
+           "Toes further outwards per turn: a hip turns its leg outwards only, so that a half is needed"},
+          self.turnYaw);
     visit({"turnOut", Unit::Metre, {-0.3, 0.3}, search(-0.03, 0.05), "Wider feet per radian of turn"},
           self.turnOut);
     visit({"startLift", Unit::None, {0.0, 2.0}, search(0.0, 1.0), "Share of the lift in the first step"},
