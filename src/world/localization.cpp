@@ -18,11 +18,13 @@ constexpr double kHeadingNoise = 2e-6;      // rad per cycle, printing of the gy
 constexpr double kHeightSigma = 0.01;       // m, of the legs' kinematics
 constexpr double kLyingHeightSigma = 0.04;  // m
 // A robot that was moved: small moves (a trainer that carries it, a push by the referee) and free ones.
-constexpr double kMoveSigma = 0.2;         // m
-constexpr double kMoveHeadingSigma = 0.3;  // rad
-constexpr double kMoveTiltSigma = 0.05;    // rad
-constexpr double kFreeSigma = 20.0;        // m
-constexpr double kFreeHeadingSigma = 2.0;  // rad
+constexpr double kMoveSigma = 0.2;          // m
+constexpr double kMoveHeadingSigma = 0.3;   // rad
+constexpr double kMoveTiltSigma = 0.05;     // rad
+constexpr double kMoveHeightSigma = 0.03;   // m
+constexpr double kKeptHeadingSigma = 0.01;  // rad, of a robot that was shifted without being turned
+constexpr double kFreeSigma = 20.0;         // m
+constexpr double kFreeHeadingSigma = 2.0;   // rad
 
 double headingOf(const Matrix3& R) {
   return std::atan2(R(1, 0), R(0, 0));
@@ -192,27 +194,45 @@ bool Localization::tryFit(PoseBelief belief, const BodyState& body) {
 
 bool Localization::track(const BodyState& body) {
   if (tryFit(belief_, body)) return true;
-  // Moved a little by somebody else.
-  PoseBelief wide = belief_;
-  BeliefMatrix& P = wide.covariance;
-  wide.drift.setZero();
+  // Moved a little by somebody else: first as far as the last such moves, then farther.
+  const PoseBelief before = belief_;
+  if (!tryFit(movedBelief(moveSigma_, moveHeadingSigma_), body) &&
+      (frame_.landmarks().empty() || !tryFit(movedBelief(kMoveSigma, kMoveHeadingSigma), body))) {
+    return false;
+  }
+  if (!frame_.landmarks().empty()) {
+    const double distance = (belief_.p_WR - before.p_WR).head<2>().norm();
+    const double angle = std::abs(twistAboutZ(belief_.R_WR * before.R_WR.transpose()));
+    const auto follow = [](double sigma, double seen, double low, double high) {
+      return std::clamp(std::sqrt(0.8 * sigma * sigma + 0.2 * seen * seen), low, high);
+    };
+    moveSigma_ = follow(moveSigma_, distance, 0.03, kMoveSigma);
+    moveHeadingSigma_ = follow(moveHeadingSigma_, angle, 0.03, kMoveHeadingSigma);
+  }
+  return true;
+}
+
+PoseBelief Localization::movedBelief(double positionSigma, double headingSigma) const {
+  PoseBelief moved = belief_;
+  BeliefMatrix& P = moved.covariance;
+  moved.drift.setZero();
   P.middleRows<3>(kDriftState).setZero();
   P.middleCols<3>(kDriftState).setZero();
   for (int i = 0; i < 3; ++i) {
     P(kDriftState + i, kDriftState + i) = kDriftSigma * kDriftSigma;
-    const double position = i < 2 ? kMoveSigma : 0.03;
-    const double angle = i < 2 ? kMoveTiltSigma : kMoveHeadingSigma;
+    const double position = i < 2 ? positionSigma : kMoveHeightSigma;
+    const double angle = i < 2 ? kMoveTiltSigma : headingSigma;
     P(kPositionState + i, kPositionState + i) += position * position;
     P(kRotationState + i, kRotationState + i) += angle * angle;
   }
-  return !frame_.landmarks().empty() && tryFit(wide, body);
+  return moved;
 }
 
 bool Localization::challenged() {
   // The particle filter weighs the fit's pose like any other. If another hypothesis explains the frames much
   // better for a while, the fit sits in a wrong place.
   const auto clusters = particles_.clusters();
-  if (clusters.empty()) return false;
+  if (clusters.empty() || frame_.landmarks().empty()) return false;
   const double own = particles_.logLikelihood(belief_.ground(), ground_, *map_);
   const double best = particles_.logLikelihood(clusters[0].X_WR, ground_, *map_);
   challenges_ = best > own + 8.0 ? challenges_ + 1 : 0;
@@ -220,11 +240,32 @@ bool Localization::challenged() {
 }
 
 bool Localization::relocate(const BodyState& body) {
+  if (const auto belief = shiftedByLandmarks(body); belief && tryFit(*belief, body)) return true;
   if (const auto belief = fromLandmarks(body); belief && tryFit(*belief, body)) return true;
   if (!options_.useFilter) return false;
+  // Too little for geometry: ask the particles. Lines alone look alike from several places, so they must have
+  // agreed for a while.
   const auto clusters = particles_.clusters();
-  if (clusters.empty() || clusters[0].share < 0.8) return false;
+  const bool onlyLines = frame_.landmarks().empty();
+  if (clusters.empty() || clusters[0].share < (onlyLines ? 0.95 : 0.8)) return false;
+  if (onlyLines && initialised_ && misses_ < kPatience / 2) return false;
   return tryFit(wideBelief(clusters[0].X_WR, 0.5, 0.2, body), body);
+}
+
+std::optional<PoseBelief> Localization::shiftedByLandmarks(const BodyState& body) const {
+  // The referee moves robots without turning them (server facts 4.8): then one landmark is enough.
+  const auto landmarks = frame_.landmarks();
+  if (!initialised_ || landmarks.empty()) return std::nullopt;
+  const Pose3& X_RC = model::cameraPose(body.bodies);
+  Vector3 p_WR = Vector3::Zero();
+  for (const ObservedLandmark& seen : landmarks) {
+    p_WR += map_->landmark(seen.id) - belief_.R_WR * (X_RC * (seen.at.p_CP - belief_.offset));
+  }
+  p_WR /= static_cast<double>(landmarks.size());
+  PoseBelief belief = wideBelief({p_WR.x(), p_WR.y(), headingOf(belief_.R_WR)}, kFreeSigma, 0.0, body);
+  const double heading = belief_.covariance(kRotationState + 2, kRotationState + 2);
+  belief.covariance(kRotationState + 2, kRotationState + 2) = heading + kKeptHeadingSigma * kKeptHeadingSigma;
+  return belief;
 }
 
 std::optional<PoseBelief> Localization::fromLandmarks(const BodyState& body) const {

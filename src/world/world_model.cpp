@@ -140,6 +140,10 @@ void WorldModel::expectBeam(const Pose2& X_FR) {
   stages_->beams.back() = X_FR;
 }
 
+const WorldState& WorldModel::state() const {
+  return stages_->state;
+}
+
 const Localization& WorldModel::localization() const {
   return stages_->localization;
 }

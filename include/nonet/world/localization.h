@@ -51,6 +51,8 @@ class Localization {
   void correct(const BodyState& body, const protocol::Vision& vision);
   bool track(const BodyState& body);
   bool relocate(const BodyState& body);
+  PoseBelief movedBelief(double positionSigma, double headingSigma) const;
+  std::optional<PoseBelief> shiftedByLandmarks(const BodyState& body) const;
   std::optional<PoseBelief> fromLandmarks(const BodyState& body) const;
   PoseBelief wideBelief(const Pose2& X_WR, double positionSigma, double headingSigma,
                         const BodyState& body) const;
@@ -80,6 +82,8 @@ class Localization {
   bool hasLast_ = false;
   Pose2 step_;  // odometry since the last vision frame
   int misses_ = 0;
+  double moveSigma_ = 0.2;         // m, size of the recent moves by others
+  double moveHeadingSigma_ = 0.3;  // rad
   double lastCorrection_ = kNever;
   Vector3 tiltCorrection_ = Vector3::Zero();
   int challenges_ = 0;  // vision frames in a row in which the particle filter knew better

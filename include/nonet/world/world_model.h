@@ -23,6 +23,8 @@ class WorldModel {
   /// Tells the localization that the robot asked to be beamed to X_FR (own field frame).
   void expectBeam(const Pose2& X_FR);
 
+  const WorldState& state() const;
+
   /// For measurements.
   const Localization& localization() const;
 
