@@ -11,11 +11,12 @@ namespace {
 
 // Process noise. The body state's velocity is off by a slowly changing drift; the velocity of the newest
 // cycle is known only when the accelerometer reports it, one cycle later (both from the recorded walks).
-constexpr double kDriftSigma = 0.03;        // m/s, while moving
-constexpr double kDriftTime = 1.0;          // s, correlation time of the drift
-constexpr double kTiltNoise = 2e-5;         // rad per cycle, from the body tracker's own corrections
-constexpr double kHeadingNoise = 2e-6;      // rad per cycle, printing of the gyro
-constexpr double kHeightSigma = 0.01;       // m, of the legs' kinematics
+constexpr double kDriftSigma = 0.06;    // m/s, while moving
+constexpr double kDriftTime = 1.0;      // s, correlation time of the drift
+constexpr double kTiltNoise = 2e-5;     // rad per cycle, from the body tracker's own corrections
+constexpr double kHeadingNoise = 2e-6;  // rad per cycle, printing of the gyro
+constexpr double kHeightSigma =
+    0.05;  // m, of the legs' kinematics: soft ground and tilted soles, much the same for many cycles
 constexpr double kLyingHeightSigma = 0.04;  // m
 // A robot that was moved: small moves (a trainer that carries it, a push by the referee) and free ones.
 constexpr double kMoveSigma = 0.2;          // m
