@@ -10,5 +10,6 @@ void addPlayCommand(CLI::App& app, int& exitCode);
 void addServeCommand(CLI::App& app, int& exitCode);
 void addMatchCommand(CLI::App& app, int& exitCode);
 void addReplayCommand(CLI::App& app, int& exitCode);
+void addFidelityCommand(CLI::App& app, int& exitCode);
 
 }  // namespace nonet::app
