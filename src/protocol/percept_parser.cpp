@@ -11,14 +11,22 @@ namespace nonet::protocol {
 namespace {
 
 bool polarItem(SexprReader& reader, Polar& polar) {
-  double azimuth = 0.0;
-  double elevation = 0.0;
-  if (!reader.open() || !reader.literal("pol") || !reader.number(polar.distance) || !reader.number(azimuth) ||
-      !reader.number(elevation) || !reader.close()) {
+  std::array<double, 3> values;
+  if (!reader.numberList("pol", values)) {
     return false;
   }
-  polar.azimuth = degreesFromWire(azimuth);
-  polar.elevation = degreesFromWire(elevation);
+  polar = {values[0], degreesFromWire(values[1]), degreesFromWire(values[2])};
+  return true;
+}
+
+// "(NAME X Y Z)"
+template <std::size_t kSize>
+bool vectorItem(SexprReader& reader, const char (&name)[kSize], Vector3& vector) {
+  std::array<double, 3> values;
+  if (!reader.numberList(name, values)) {
+    return false;
+  }
+  vector = Vector3(values[0], values[1], values[2]);
   return true;
 }
 
@@ -36,12 +44,16 @@ bool landmarkFromName(std::string_view name, Landmark& landmark) {
 }
 
 bool bodyPartFromName(std::string_view name, std::size_t& part) {
-  for (std::size_t i = 0; i < kBodyPartCount; ++i) {
-    if (name == bodyPartName(static_cast<BodyPart>(i))) {
-      part = i;
-      return true;
-    }
-  }
+  const auto found = [&](BodyPart which) {
+    part = static_cast<std::size_t>(which);
+    return true;
+  };
+  const bool right = !name.empty() && name[0] == 'r';
+  if (name == "head") return found(BodyPart::Head);
+  if (!right && (name.empty() || name[0] != 'l')) return false;
+  name.remove_prefix(1);
+  if (name == "lowerarm") return found(right ? BodyPart::RLowerArm : BodyPart::LLowerArm);
+  if (name == "foot") return found(right ? BodyPart::RFoot : BodyPart::LFoot);
   return false;
 }
 
@@ -113,8 +125,8 @@ class PerceptParser {
     if (name == "See") return see();
     if (name == "time") return time();
     if (name == "GS") return gameState();
-    if (name == "GYR") return torsoSensor(PerceptKind::Gyro, "rt");
-    if (name == "ACC") return torsoSensor(PerceptKind::Accelerometer, "a");
+    if (name == "GYR") return gyro();
+    if (name == "ACC") return accelerometer();
     if (name == "FRP") return force();
     if (name == "hear") return hear();
     return false;
@@ -126,25 +138,23 @@ class PerceptParser {
 
   // "(n NAME)"
   bool nodeName(std::string_view& name) {
-    return reader_.open() && reader_.literal("n") && reader_.atom(name) && reader_.close();
+    return reader_.openNamed("n") && reader_.atom(name) && reader_.close();
   }
 
   bool time() {
-    double now = 0.0;
-    if (!reader_.open() || !reader_.literal("now") || !reader_.number(now) || !reader_.close() ||
-        !reader_.close()) {
+    std::array<double, 1> now;
+    if (!reader_.numberList("now", now) || !reader_.close()) {
       return false;
     }
-    percept_.time = now;
+    percept_.time = now[0];
     note(PerceptKind::Time);
     return true;
   }
 
   bool hingeJoint() {
     std::string_view name;
-    double angle = 0.0;
-    if (!nodeName(name) || !reader_.open() || !reader_.literal("ax") || !reader_.number(angle) ||
-        !reader_.close() || !reader_.close()) {
+    std::array<double, 1> angle;
+    if (!nodeName(name) || !reader_.numberList("ax", angle) || !reader_.close()) {
       return false;
     }
     const auto joint = model::jointFromPerceptorName(name);
@@ -152,28 +162,34 @@ class PerceptParser {
       return false;
     }
     const std::size_t i = model::index(*joint);
-    percept_.joints[i] = degreesFromWire(angle);
+    percept_.joints[i] = degreesFromWire(angle[0]);
     percept_.jointsPresent |= 1U << i;
     note(PerceptKind::Joint, i);
     return true;
   }
 
-  bool torsoSensor(PerceptKind kind, std::string_view label) {
+  bool gyro() {
     std::string_view name;
-    Vector3 value;
-    if (!nodeName(name) || name != "torso" || !reader_.open() || !reader_.literal(label) ||
-        !triple(reader_, value) || !reader_.close() || !reader_.close()) {
+    Vector3 rate;
+    if (!nodeName(name) || name != "torso" || !vectorItem(reader_, "rt", rate) || !reader_.close()) {
       return false;
     }
-    if (kind == PerceptKind::Gyro) {
-      for (double& component : value) {
-        component = degreesFromWire(component);
-      }
-      percept_.gyro = robotFromServerAxes(value);
-    } else {
-      percept_.accelerometer = robotFromServerAxes(value);
+    for (double& component : rate) {
+      component = degreesFromWire(component);
     }
-    note(kind);
+    percept_.gyro = robotFromServerAxes(rate);
+    note(PerceptKind::Gyro);
+    return true;
+  }
+
+  bool accelerometer() {
+    std::string_view name;
+    Vector3 acceleration;
+    if (!nodeName(name) || name != "torso" || !vectorItem(reader_, "a", acceleration) || !reader_.close()) {
+      return false;
+    }
+    percept_.accelerometer = robotFromServerAxes(acceleration);
+    note(PerceptKind::Accelerometer);
     return true;
   }
 
@@ -182,9 +198,8 @@ class PerceptParser {
     ForceSensor sensor{};
     Vector3 center;
     Vector3 force;
-    if (!nodeName(name) || !forceSensorFromName(name, sensor) || !reader_.open() || !reader_.literal("c") ||
-        !triple(reader_, center) || !reader_.close() || !reader_.open() || !reader_.literal("f") ||
-        !triple(reader_, force) || !reader_.close() || !reader_.close()) {
+    if (!nodeName(name) || !forceSensorFromName(name, sensor) || !vectorItem(reader_, "c", center) ||
+        !vectorItem(reader_, "f", force) || !reader_.close()) {
       return false;
     }
     const auto i = static_cast<std::size_t>(sensor);
@@ -291,8 +306,8 @@ class PerceptParser {
   bool player(Vision& vision) {
     std::string_view team;
     int unum = 0;
-    if (!reader_.open() || !reader_.literal("team") || !reader_.atom(team) || !reader_.close() ||
-        !reader_.open() || !reader_.literal("id") || !reader_.integer(unum) || !reader_.close()) {
+    if (!reader_.openNamed("team") || !reader_.atom(team) || !reader_.close() || !reader_.openNamed("id") ||
+        !reader_.integer(unum) || !reader_.close()) {
       return false;
     }
     SeenPlayer& player = vision.players.emplace_back();
