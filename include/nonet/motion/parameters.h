@@ -11,14 +11,19 @@ struct ControlParameters {
   double proportional = 1.0;
   double integral = 0.0;
   double derivative = 0.0;
+  double stopMargin = 0.002;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
     visit({"proportional", Unit::None, {0.0, 2.0}, fixed, "Share of the predicted error closed in one cycle"},
           self.proportional);
-    visit({"integral", Unit::None, {0.0, 2.0}, fixed, "Gain on the summed error"}, self.integral);
-    visit({"derivative", Unit::None, {-1.0, 1.0}, fixed, "Gain on the change of the error"}, self.derivative);
+    visit({"integral", Unit::None, {0.0, 2.0}, fixed, "Share of the summed error (one summand per cycle)"},
+          self.integral);
+    visit({"derivative", Unit::None, {-1.0, 1.0}, fixed, "Share of the error's change in one cycle"},
+          self.derivative);
+    visit({"stopMargin", Unit::Radian, {0.0, 0.1}, fixed, "Distance that targets keep from a joint's stops"},
+          self.stopMargin);
   }
 };
 
