@@ -8,6 +8,7 @@
 #include <asio.hpp>
 #include <fmt/format.h>
 
+#include "nonet/app/turn.h"
 #include "nonet/lab/agent_setup.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/log_file.h"
@@ -19,20 +20,31 @@ using asio::ip::tcp;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-// A lock-step server hangs when our scene message reached it after the fifth cycle of the connection: before
-// our first sense message it then waits for a (syn), which we owe to none (server facts 1.9). If the robot
-// exists by then, one (syn) frees it; if not, only a new connection does. After the first message neither can
-// happen: each message is answered, and the server never waits for an answer before the message is out.
-constexpr double kSilenceBeforeSyn = 1.5;        // s
-constexpr double kSilenceBeforeReconnect = 3.0;  // s, doubled each time
-constexpr double kFirstPause = 0.1;              // s between two attempts to connect, grows by half each time
-constexpr double kLongestPause = 2.0;            // s
-constexpr std::size_t kReadSize = 65536;         // bytes
+// Before our first sense message a lock-step server may need more than the greeting (server facts 1.9): it
+// waits a second for any input in each of the cycles until the robot exists; and if the greeting came after
+// the fifth cycle of the connection, it waits for a (syn) although there is no message yet that we could
+// answer. So (syn) is repeated until the first message comes. If the greeting came so late that the robot
+// cannot be built, only a new connection helps. After the first message neither can happen: each message is
+// answered, and the server never waits for an answer before the message is out.
+constexpr double kSilenceBeforeSyn = 0.15;       // s
+constexpr double kSynInterval = 0.25;            // s
+constexpr double kSilenceBeforeReconnect = 4.0;  // s, doubled each time
+// Agents of one machine take turns to introduce themselves. A turn lasts some 0.1 s; one that a stopped
+// process does not give back is ignored after a while, by one agent after the other.
+constexpr double kTurnInterval = 0.02;        // s between two looks
+constexpr double kTurnPatience = 6.0;         // s
+constexpr double kTurnPatiencePerUnum = 0.4;  // s
+constexpr double kFirstPause = 0.1;           // s between two attempts to connect, grows by half each time
+constexpr double kLongestPause = 2.0;         // s
+constexpr std::size_t kReadSize = 65536;      // bytes
 
 class PlayClient {
  public:
   explicit PlayClient(const PlayOptions& options)
-      : options_(options), session_(options.session), signals_(io_, SIGINT, SIGTERM) {
+      : options_(options),
+        session_(options.session),
+        turn_(options.host, options.port),
+        signals_(io_, SIGINT, SIGTERM) {
     if (!options.record.empty()) {
       log_ = std::make_unique<protocol::LogWriter>(options.record, options.recordHeader);
       if (options.session.agent.startPose) log_->comment(lab::startComment(*options.session.agent.startPose));
@@ -44,7 +56,7 @@ class PlayClient {
       if (!error) finish(PlayExit::Stopped, fmt::format("stopped by signal {}", signal));
     });
     started_ = Clock::now();
-    after(pauseTimer_, firstPause(), [this] { connect(); });
+    asio::post(io_, [this] { awaitTurn(); });
     io_.run();
     if (log_) {
       log_->close();
@@ -57,14 +69,6 @@ class PlayClient {
  private:
   using Timer = asio::steady_timer;
 
-  // Two teams that start together take turns: the second half of each slot belongs to every other team name.
-  double firstPause() const {
-    const agent::AgentConfig& agent = options_.session.agent;
-    unsigned sum = 0;
-    for (const char letter : agent.team) sum = sum * 31 + static_cast<unsigned char>(letter);
-    return options_.stagger * (std::max(agent.unum - 1, 0) + (sum % 2 == 0 ? 0.0 : 0.5));
-  }
-
   template <class Action>
   void after(Timer& timer, double seconds, Action action) {
     timer.expires_after(std::chrono::duration_cast<Clock::duration>(Seconds(seconds)));
@@ -74,6 +78,16 @@ class PlayClient {
   }
 
   // -- connecting
+
+  void awaitTurn() {
+    const double patience = kTurnPatience + kTurnPatiencePerUnum * options_.session.agent.unum;
+    if (turn_.take() || Seconds(Clock::now() - started_).count() > patience) {
+      started_ = Clock::now();  // waiting for the others does not count as waiting for the server
+      connect();
+    } else {
+      after(pauseTimer_, kTurnInterval, [this] { awaitTurn(); });
+    }
+  }
 
   void connect() {
     std::error_code error;
@@ -117,15 +131,21 @@ class PlayClient {
 
   void watchSilence() {
     if (!options_.session.sync) return;
-    after(silenceTimer_, kSilenceBeforeSyn, [this] {
-      say("no message yet, sending one more (syn)");
-      send("(syn)");
-      after(silenceTimer_, reconnectAfter_ - kSilenceBeforeSyn, [this] { reconnect(); });
-    });
+    greeted_ = Clock::now();
+    after(silenceTimer_, kSilenceBeforeSyn, [this] { breakSilence(); });
+  }
+
+  void breakSilence() {
+    if (Seconds(Clock::now() - greeted_).count() > reconnectAfter_) {
+      reconnect();
+      return;
+    }
+    send("(syn)");
+    after(silenceTimer_, kSynInterval, [this] { breakSilence(); });
   }
 
   void reconnect() {
-    say("still no message after {:.1f} s, connecting anew", reconnectAfter_);
+    say("no message in {:.1f} s, connecting anew", reconnectAfter_);
     reconnectAfter_ *= 2.0;
     ++connection_;
     std::error_code ignored;
@@ -193,6 +213,7 @@ class PlayClient {
                                             options_.session.agent.robotType));
     } else if (session_.stage() == lab::Session::Stage::Playing && !accepted_) {
       accepted_ = true;
+      turn_.release();
       const protocol::GameStatus& game = session_.percept().game;
       say("connected to {}:{} as {} {} ({})", options_.host, options_.port, options_.session.agent.team,
           game.unum.value_or(0), game.side == protocol::TeamSide::Right ? "right" : "left");
@@ -261,6 +282,7 @@ class PlayClient {
 
   PlayOptions options_;
   lab::Session session_;
+  Turn turn_;
   asio::io_context io_{1};
   asio::signal_set signals_;
   tcp::resolver resolver_{io_};
@@ -271,6 +293,7 @@ class PlayClient {
   std::unique_ptr<protocol::LogWriter> log_;
   std::string outbox_;  // frames not yet taken by the socket
   Clock::time_point started_;
+  Clock::time_point greeted_;
   double pause_ = kFirstPause;
   double reconnectAfter_ = kSilenceBeforeReconnect;
   int connection_ = 0;  // counts connections, so that late events of an old one are told apart

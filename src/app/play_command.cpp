@@ -56,10 +56,6 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingFile);
   command->add_option("--seed", choice.seed, "Seed of the agent's random numbers")->capture_default_str();
   command->add_option("--wait", play.wait, "Seconds to wait for a server")->capture_default_str();
-  command
-      ->add_option("--stagger", play.stagger,
-                   "Seconds per uniform number to wait before connecting: robots born at once overlap")
-      ->capture_default_str();
   command->add_option("--start", arguments->start, "Beam to X,Y instead of the kick-off place")
       ->delimiter(',')
       ->expected(2);

@@ -97,7 +97,6 @@ TEST(Play, IntroducesItselfAndAnswersEachMessageOnce) {
   Player player(optionsFor(server));
   server.accept();
   EXPECT_EQ(server.receive(), "(scene rsg/agent/nao/nao_hetero.rsg 2)(syn)");
-  EXPECT_EQ(server.receive(0.2), std::nullopt) << "nothing more before the first message";
   server.send(standingMessage(1.0));
   const std::string second = server.receive().value_or("");
   EXPECT_THAT(second, StartsWith("(init (unum 3)(teamname Test))"));
@@ -136,10 +135,12 @@ TEST(Play, FreesAHangingServer) {
   Player player(optionsFor(server));
   server.accept();
   EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
-  const auto start = Clock::now();
-  EXPECT_EQ(server.receive(), "(syn)");
-  EXPECT_GT(Clock::now() - start, std::chrono::seconds(1));
-  EXPECT_EQ(server.receive(), std::nullopt) << "closed: it connects anew";
+  int syns = 0;
+  while (const auto text = server.receive()) {
+    EXPECT_EQ(*text, "(syn)");
+    ++syns;
+  }
+  EXPECT_GT(syns, 5);  // then it closed, to connect anew
   server.accept();
   EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
   server.send(standingMessage(1.0));

@@ -24,9 +24,8 @@ struct PlayOptions {
   lab::SessionOptions session;
   std::string record;  // log file; empty: none
   protocol::LogHeader recordHeader;
-  double wait = 30.0;    // s until a server must have answered
-  double stagger = 0.0;  // s per uniform number before connecting: robots born in one cycle overlap
-  bool quiet = false;    // only errors
+  double wait = 30.0;  // s until a server must have answered
+  bool quiet = false;  // only errors
 };
 
 /// Plays until the server goes, refuses, or a signal comes. Says what happens on standard output, errors on

@@ -1,0 +1,125 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "nonet/app/commands.h"
+#include "nonet/sim/server.h"
+
+namespace nonet::app {
+
+namespace {
+
+struct ServeArguments {
+  sim::ServerOptions server;
+  std::uint64_t seed = 1;
+  std::string field = "30x20";
+  std::vector<std::string> files;
+  std::vector<std::string> assignments;
+  std::string leftTeam;
+  std::string rightTeam;
+  bool realTime = false;
+  bool sync = false;
+  bool freeRun = false;
+  bool truth = false;
+  bool noNoise = false;
+  bool listSettings = false;
+  bool verbose = false;
+  std::string solver = "exact";
+};
+
+constexpr const char* kExamples = R"(Examples:
+  nonet serve                                    real time, ports 3100 and 3200, as the league's server
+  nonet serve --sync --players 18 --left Nonet   a reproducible match in lock-step
+  nonet serve --sync --truth --no-noise          for experiments with one robot
+  nonet serve --set RuleHalfTime=60 --set AutomaticKickOff=true
+  nonet serve --settings match.toml              lines like: RuleHalfTime = 60)";
+
+sim::Settings settingsFrom(const ServeArguments& arguments) {
+  sim::Settings settings;
+  settings.setField(arguments.field);
+  for (const std::string& file : arguments.files) settings.overlayFile(file);
+  if (arguments.truth) settings.senseTruth();
+  if (arguments.noNoise) settings.removeNoise();
+  if (!arguments.leftTeam.empty()) settings.leftTeam = arguments.leftTeam;
+  if (!arguments.rightTeam.empty()) settings.rightTeam = arguments.rightTeam;
+  if (arguments.solver == "quick") settings.quickSolver = true;
+  for (const std::string& assignment : arguments.assignments) settings.setAssignment(assignment);
+  return settings;
+}
+
+int runServe(ServeArguments& arguments) {
+  const sim::Settings settings = settingsFrom(arguments);
+  if (arguments.listSettings) {
+    for (const sim::SettingView& setting : sim::listSettings(settings)) {
+      fmt::print("{:32} {:>18}  {}\n", setting.name, setting.value, setting.text);
+    }
+    return 0;
+  }
+  if (arguments.verbose) spdlog::set_level(spdlog::level::debug);
+  arguments.server.lockStep = arguments.sync;
+  arguments.server.realTime = arguments.realTime || (!arguments.sync && !arguments.freeRun);
+  arguments.server.handleSignals = true;
+  sim::Server server(settings, arguments.seed, arguments.server);
+  spdlog::info("server: agents on port {}, monitors on port {}, {}{}, seed {}", server.agentPort(),
+               server.monitorPort(), arguments.sync ? "lock-step" : "no lock-step",
+               arguments.server.realTime ? " in real time" : "", arguments.seed);
+  server.run();
+  const sim::MatchState& match = server.simulation().match();
+  spdlog::info("server: ended at {:.2f} s of the game, {} {} : {} {}", match.time,
+               match.teamLeft.empty() ? "left" : std::string_view(match.teamLeft), match.scoreLeft, match.scoreRight,
+               match.teamRight.empty() ? "right" : std::string_view(match.teamRight));
+  return 0;
+}
+
+}  // namespace
+
+void addServeCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("serve", "The embedded server, on the network");
+  auto arguments = std::make_shared<ServeArguments>();
+  ServeArguments& a = *arguments;
+  command->footer(kExamples);
+  command->add_option("--port", a.server.agentPort, "Port for agents, 0: any free one")->capture_default_str();
+  command->add_option("--monitor-port", a.server.monitorPort, "Port for monitors and trainers, 0: any free one")
+      ->capture_default_str();
+  command->add_option("--bind", a.server.address, "Address to listen on")->capture_default_str();
+  command->add_option("--seed", a.seed, "Seed of all noise and of the referee's random choices")
+      ->capture_default_str();
+  auto* realTime = command->add_flag("--realtime", a.realTime,
+                                     "20 ms per cycle (the default, unless --sync or --free is given); with --sync: "
+                                     "lock-step, but never faster than the clock");
+  command->add_flag("--sync", a.sync, "Lock-step: each cycle waits for the (syn) of every agent");
+  command->add_flag("--free", a.freeRun, "As fast as possible, waiting for nobody")->excludes(realTime);
+  command
+      ->add_option("--answer-timeout", a.server.answerTimeout,
+                   "Lock-step: seconds after which an agent that does not answer is no longer waited for")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--players", a.server.players,
+                   "Start when so many agents are there; they enter in the order of team and number, so that a "
+                   "lock-step match with the same seed is the same again")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 22));
+  command->add_option("--left", a.leftTeam, "Name of the team that plays left (else the first to come)");
+  command->add_option("--right", a.rightTeam, "Name of the team that plays right");
+  command->add_option("--field", a.field, "Size of the field: 30x20 or 21x14")->capture_default_str();
+  command->add_option("--settings", a.files, "TOML files with settings of the server, overlaid in this order")
+      ->check(CLI::ExistingFile);
+  command->add_option("--set", a.assignments, "One setting, Name=Value; see --list-settings");
+  command->add_flag("--list-settings", a.listSettings, "Print all settings with their values and end");
+  command->add_flag("--truth", a.truth, "Agents are told mypos, myorien and ballpos");
+  command->add_flag("--no-noise", a.noNoise, "No noise of vision and beams");
+  command->add_option("--solver", a.solver, "Physics: exact, as the league's server, or quick")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"exact", "quick"}));
+  command->add_option("--record-monitor", a.server.monitorLog,
+                      "Write the monitor stream into this file (sparkmonitor.log format)");
+  command->add_flag("--end-with-match", a.server.endWithMatch, "End after the match");
+  command->add_flag("-v,--verbose", a.verbose, "Say more");
+  command->callback([arguments, &exitCode] { exitCode = runServe(*arguments); });
+}
+
+}  // namespace nonet::app
