@@ -69,8 +69,8 @@ int runServe(ServeArguments& arguments) {
   server.run();
   const sim::MatchState& match = server.simulation().match();
   spdlog::info("server: ended at {:.2f} s of the game, {} {} : {} {}", match.time,
-               match.teamLeft.empty() ? "left" : std::string_view(match.teamLeft), match.scoreLeft, match.scoreRight,
-               match.teamRight.empty() ? "right" : std::string_view(match.teamRight));
+               match.teamLeft.empty() ? "left" : std::string_view(match.teamLeft), match.scoreLeft,
+               match.scoreRight, match.teamRight.empty() ? "right" : std::string_view(match.teamRight));
   return 0;
 }
 
@@ -81,15 +81,18 @@ void addServeCommand(CLI::App& app, int& exitCode) {
   auto arguments = std::make_shared<ServeArguments>();
   ServeArguments& a = *arguments;
   command->footer(kExamples);
-  command->add_option("--port", a.server.agentPort, "Port for agents, 0: any free one")->capture_default_str();
-  command->add_option("--monitor-port", a.server.monitorPort, "Port for monitors and trainers, 0: any free one")
+  command->add_option("--port", a.server.agentPort, "Port for agents, 0: any free one")
+      ->capture_default_str();
+  command
+      ->add_option("--monitor-port", a.server.monitorPort, "Port for monitors and trainers, 0: any free one")
       ->capture_default_str();
   command->add_option("--bind", a.server.address, "Address to listen on")->capture_default_str();
   command->add_option("--seed", a.seed, "Seed of all noise and of the referee's random choices")
       ->capture_default_str();
-  auto* realTime = command->add_flag("--realtime", a.realTime,
-                                     "20 ms per cycle (the default, unless --sync or --free is given); with --sync: "
-                                     "lock-step, but never faster than the clock");
+  auto* realTime =
+      command->add_flag("--realtime", a.realTime,
+                        "20 ms per cycle (the default, unless --sync or --free is given); with --sync: "
+                        "lock-step, but never faster than the clock");
   command->add_flag("--sync", a.sync, "Lock-step: each cycle waits for the (syn) of every agent");
   command->add_flag("--free", a.freeRun, "As fast as possible, waiting for nobody")->excludes(realTime);
   command
@@ -98,9 +101,10 @@ void addServeCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command
-      ->add_option("--players", a.server.players,
-                   "Start when so many agents are there; they enter in the order of team and number, so that a "
-                   "lock-step match with the same seed is the same again")
+      ->add_option(
+          "--players", a.server.players,
+          "Start when so many agents are there; they enter in the order of team and number, so that a "
+          "lock-step match with the same seed is the same again")
       ->capture_default_str()
       ->check(CLI::Range(0, 22));
   command->add_option("--left", a.leftTeam, "Name of the team that plays left (else the first to come)");

@@ -57,6 +57,7 @@ Agent& Simulation::Implementation::addAgent() {
   agent->handle = nextHandle++;
   agent->noise = random.fork(kConnectionStream + static_cast<std::uint64_t>(agent->handle));
   agents.push_back(std::move(agent));
+  ++sceneVersion;
   return *agents.back();
 }
 
@@ -246,9 +247,9 @@ void Simulation::Implementation::removeGoneAgents() {
     referee.game().releasePlayer(player->side, player->unum, player->robotType);
     world.removeRobot(player->robot);
     players.erase(players.begin() + (player - players.data()));
-    ++sceneVersion;
   }
-  std::erase_if(agents, [](const auto& agent) { return agent->gone; });
+  const std::size_t removed = std::erase_if(agents, [](const auto& agent) { return agent->gone; });
+  if (removed > 0) ++sceneVersion;
 }
 
 // Players whose init has not succeeded are not seen (server facts 1.6).

@@ -1,0 +1,60 @@
+// One TCP connection of the server: framed messages in, framed messages out, neither ever waiting.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <asio/ip/tcp.hpp>
+
+#include "nonet/protocol/framing.h"
+
+namespace nonet::sim {
+
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  explicit Connection(asio::ip::tcp::socket socket);
+
+  /// Starts reading; `onMessage` gets every complete message, `paused` says when to stop reading for a while
+  /// (then call resume()).
+  void start(std::function<void(std::string_view)> onMessage, std::function<bool()> paused);
+  /// Goes on reading if it was paused and no longer is.
+  void resume();
+  /// Sends a message, or drops it whole while an earlier one has not gone out completely (server facts 1.1).
+  /// False if it was dropped or the connection is dead.
+  bool send(std::string_view message);
+  void close();
+
+  bool dead() const { return dead_; }
+  /// Why it is dead: "" while it lives.
+  const std::string& reason() const { return reason_; }
+  /// Closed by us because of what it sent.
+  bool refused() const { return refused_; }
+  bool hasRest() const { return !rest_.empty(); }
+  const std::string& peer() const { return peer_; }
+
+ private:
+  void read();
+  void deliver();
+  void flush();
+  void waitToFlush();
+  void die(const std::string& reason);
+
+  asio::ip::tcp::socket socket_;
+  std::string peer_;
+  protocol::FrameReader frames_;
+  std::function<void(std::string_view)> onMessage_;
+  std::function<bool()> paused_;
+  bool reading_ = false;
+  bool delivering_ = false;
+  bool waitingToFlush_ = false;
+  std::string out_;   // reused
+  std::string rest_;  // of a message that has gone out in part
+  bool dead_ = false;
+  bool refused_ = false;
+  std::string reason_;
+};
+
+}  // namespace nonet::sim
