@@ -1,5 +1,6 @@
 #include "nonet/motion/motion.h"
 
+#include "nonet/motion/fall_control.h"
 #include "nonet/motion/head_control.h"
 #include "nonet/motion/walk_control.h"
 
@@ -33,42 +34,114 @@ class Transition {
 }  // namespace
 
 struct Motion::Stages {
-  Stages(const model::RobotModel& robot, const MotionParameters& motionParameters)
-      : model(&robot),
-        parameters(motionParameters),
+  Stages(const model::RobotModel& robot, const MotionParameters& motionParameters,
+         const std::string& skillFolder)
+      : parameters(motionParameters),
+        library(skillFolder, motionParameters.skills),
+        player(robot, library),
         walk(robot, motionParameters.sets, motionParameters.selection),
+        fall(library, motionParameters.fall),
         head(robot, motionParameters.head) {}
 
-  const model::RobotModel* model;
+  enum class Mode : std::uint8_t { Walk, Skill, Fall };
+
+  bool updateSkill(const world::WorldState& world, const MotionRequest& request);
+  bool startSkill(const MotionRequest& request);
+  void updateWalk(const world::WorldState& world, const MotionRequest& request);
+
   MotionParameters parameters;
+  SkillLibrary library;
+  SkillPlayer player;
   WalkControl walk;
+  FallControl fall;
   HeadControl head;
   Transition transition;
   JointTargets targets;
   MotionState state;
+  Mode mode = Mode::Walk;
+  MotionRequest pending;   // Skill or Kick that was begun
+  bool skillDone = false;  // the request that is still made was carried out
   bool started = false;
 };
 
+// A skill or kick that has begun is played to its end. Kicks begin from the stand.
+bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionRequest& request) {
+  using Kind = MotionRequest::Kind;
+  if (mode != Mode::Skill) {
+    const bool wanted = request.kind == Kind::Skill || request.kind == Kind::Kick;
+    const bool same =
+        request.kind == pending.kind && request.skill == pending.skill && request.side == pending.side;
+    if (!wanted) pending = MotionRequest{};
+    if (!wanted || (skillDone && same)) {
+      skillDone = skillDone && wanted;
+      return false;
+    }
+    skillDone = false;
+    pending = request;
+    if (!startSkill(request)) return false;
+  }
+  state.busy = true;
+  if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
+  state.skillFinished = true;
+  skillDone = true;
+  mode = Mode::Walk;
+  return true;
+}
+
+bool Motion::Stages::startSkill(const MotionRequest& request) {
+  const bool kick = request.kind == MotionRequest::Kind::Kick;
+  if (kick && !walk.standing()) return false;
+  const bool mirrored = request.side == model::Side::Right;
+  const std::string_view name = kick ? std::string_view("kick_forward") : request.skill.view();
+  std::optional<Vector2> ball;
+  if (kick) ball = request.ball;
+  if (!player.start(name, mirrored, targets.angles, ball)) {
+    state.skillFinished = true;  // no such skill: nothing to wait for
+    skillDone = true;
+    return false;
+  }
+  mode = Mode::Skill;
+  return true;
+}
+
+void Motion::Stages::updateWalk(const world::WorldState& world, const MotionRequest& request) {
+  const bool back = mode != Mode::Walk || !started || state.skillFinished;
+  if (back) walk.reset();
+  const model::JointArray before = started ? targets.angles : world.body.joints;
+  mode = Mode::Walk;
+  walk.update(world, request, targets);
+  if (back) transition.begin(before, targets.angles, parameters.transition.standTime);
+  transition.apply(world.body.cycleTime, targets.angles);
+}
+
 Motion::Motion(const model::RobotModel& model, const MotionParameters& parameters,
-               [[maybe_unused]] const std::string& skillFolder)
-    : stages_(std::make_unique<Stages>(model, parameters)) {}
+               const std::string& skillFolder)
+    : stages_(std::make_unique<Stages>(model, parameters, skillFolder)) {}
 Motion::~Motion() = default;
 
 const MotionState& Motion::state() const {
   return stages_->state;
+}
+const WalkControl& Motion::walk() const {
+  return stages_->walk;
 }
 
 const JointTargets& Motion::update(const world::WorldState& world, const MotionRequest& request,
                                    const HeadRequest& head) {
   Stages& s = *stages_;
   s.state = MotionState{};
-  s.walk.update(world, request, s.targets);
-  if (!s.started) {
-    s.transition.begin(world.body.joints, s.targets.angles, s.parameters.transition.standTime);
-    s.started = true;
+  const bool skillRuns = s.mode == Stages::Mode::Skill;
+  if (!skillRuns && s.started && s.fall.update(world, s.player, s.targets)) {
+    s.mode = Stages::Mode::Fall;
+    s.head.release();
+  } else if (s.started && s.updateSkill(world, request)) {
+    s.head.release();
+  } else {
+    s.updateWalk(world, request);
+    s.head.update(world.body, head, s.targets);
   }
-  s.transition.apply(world.body.cycleTime, s.targets.angles);
-  s.head.update(world.body, head, s.targets);
+  s.state.rising = s.fall.active();
+  s.started = true;
   return s.targets;
 }
 

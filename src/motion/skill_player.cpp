@@ -11,6 +11,7 @@ using model::Side;
 namespace {
 
 // A skill that jumps in a circle without taking time must not hang the robot.
+constexpr double kBallRadius = 0.042;  // m, server facts 3.3
 constexpr int kMostInstructionsPerCycle = 1000;
 
 Matrix3 rotationOf(const Vector3& rollPitchYaw) {
@@ -59,7 +60,8 @@ Vector3 hermite(const PointAt& point, int count, double share) {
 SkillPlayer::SkillPlayer(const model::RobotModel& model, const SkillLibrary& library)
     : model_(&model), library_(&library) {}
 
-bool SkillPlayer::start(std::string_view name, bool mirrored, const model::JointArray& commanded) {
+bool SkillPlayer::start(std::string_view name, bool mirrored, const model::JointArray& commanded,
+                        const std::optional<Vector2>& p_RBall) {
   const int skill = library_->find(name);
   if (skill < 0) return false;
   frames_[0] = Frame{skill, 0, mirrored, {}};
@@ -67,6 +69,7 @@ bool SkillPlayer::start(std::string_view name, bool mirrored, const model::Joint
   time_ = 0.0;
   begun_ = false;
   from_ = commanded;
+  ball_ = p_RBall;
   return true;
 }
 
@@ -195,8 +198,8 @@ void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const wor
   }
   if (instruction.fromBall) {
     // The ball seen from the torso, on the ground: the ball state is level, so the torso's tilt comes in.
-    const Vector3 p_level(world.ball.p_RB.x(), world.ball.p_RB.y(),
-                          world.ball.p_FB.z() - world.body.torsoHeight);
+    const Vector2 ball = ball_.value_or(world.ball.p_RB);
+    const Vector3 p_level(ball.x(), ball.y(), kBallRadius - world.body.torsoHeight);
     const Matrix3 R_LR = (Eigen::AngleAxisd(world.body.pitch, Vector3::UnitY()) *
                           Eigen::AngleAxisd(world.body.roll, Vector3::UnitX()))
                              .toRotationMatrix();

@@ -8,6 +8,7 @@
 #include "nonet/model/robot_model.h"
 #include "nonet/motion/parameters.h"
 #include "nonet/motion/request.h"
+#include "nonet/motion/walk_control.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::motion {
@@ -27,6 +28,8 @@ class Motion {
   const JointTargets& update(const world::WorldState& world, const MotionRequest& request,
                              const HeadRequest& head);
   const MotionState& state() const;
+  /// For measurements and drawings.
+  const WalkControl& walk() const;
 
  private:
   struct Stages;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "nonet/config/parameters.h"
+#include "nonet/motion/fall_control.h"
 #include "nonet/motion/head_control.h"
+#include "nonet/motion/skill_parameters.h"
 #include "nonet/motion/walk_control.h"
 
 namespace nonet::motion {
@@ -44,6 +46,8 @@ struct MotionParameters {
   WalkSelection selection;
   WalkSets sets;
   HeadParameters head;
+  FallParameters fall;
+  SkillParameters skills;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -54,6 +58,8 @@ struct MotionParameters {
     visit.group("sprint", self.sets.sprint);
     visit.group("positioning", self.sets.positioning);
     visit.group("head", self.head);
+    visit.group("fall", self.fall);
+    visit.group("skills", self.skills);
   }
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "nonet/motion/limbs.h"
@@ -21,7 +22,10 @@ class SkillPlayer {
   SkillPlayer(const model::RobotModel& model, const SkillLibrary& library);
 
   /// False if there is no such skill. Begins at the angles in `commanded` (what the joints were told last).
-  bool start(std::string_view name, bool mirrored, const model::JointArray& commanded);
+  /// `p_RBall`: where curves "from ball" take the ball to be (robot frame on the ground, m); by default where
+  /// the world state has it when the curve begins.
+  bool start(std::string_view name, bool mirrored, const model::JointArray& commanded,
+             const std::optional<Vector2>& p_RBall = std::nullopt);
   void stop() { depth_ = 0; }
   bool running() const { return depth_ > 0; }
   double elapsed() const { return time_; }  // s since start
@@ -52,13 +56,14 @@ class SkillPlayer {
   const SkillLibrary* library_;
   std::array<Frame, SkillLibrary::kDeepestCall + 1> frames_{};
   int depth_ = 0;
-  double time_ = 0.0;           // since the start of the outermost skill, s
-  bool begun_ = false;          // the present instruction has begun
-  double inInstruction_ = 0.0;  // s
-  double duration_ = 0.0;       // of the present instruction, s
-  model::JointArray from_{};    // angles at its begin
-  FootPoses feetFrom_{};        // sole poses at its begin
-  Vector3 p_RBall_ = Vector3::Zero();
+  double time_ = 0.0;                  // since the start of the outermost skill, s
+  bool begun_ = false;                 // the present instruction has begun
+  double inInstruction_ = 0.0;         // s
+  double duration_ = 0.0;              // of the present instruction, s
+  model::JointArray from_{};           // angles at its begin
+  FootPoses feetFrom_{};               // sole poses at its begin
+  std::optional<Vector2> ball_;        // given at the start
+  Vector3 p_RBall_ = Vector3::Zero();  // in the torso frame, m
 };
 
 }  // namespace nonet::motion

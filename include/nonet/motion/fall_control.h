@@ -1,0 +1,62 @@
+// Falling and rising: protects while the robot falls, then gets it up, with another attempt when one fails.
+//
+// Needs: the posture (world stage), the skills rise_front, rise_back, rise_side and their second and third
+// variants (rise_front_2, ...). Gives: joint targets while it is in control.
+#pragma once
+
+#include "nonet/config/parameters.h"
+#include "nonet/motion/request.h"
+#include "nonet/motion/skill_player.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::motion {
+
+struct FallParameters {
+  double softness = 0.3;
+  double quietRate = 1.5;
+  double longestWait = 0.6;
+  double armPitch = -1.57;
+  double armYaw = 0.4;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"softness", Unit::None, {0.0, 1.0}, fixed, "Stiffness of the joints while falling"},
+          self.softness);
+    visit(
+        {"quietRate", Unit::RadianPerSecond, {0.1, 20.0}, fixed, "Turning slower than this, the robot lies"},
+        self.quietRate);
+    visit({"longestWait", Unit::Second, {0.0, 5.0}, fixed, "Then it rises even if it still moves"},
+          self.longestWait);
+    visit({"armPitch", Unit::Radian, {-2.0, 2.0}, fixed, "Shoulder pitch while falling"}, self.armPitch);
+    visit({"armYaw", Unit::Radian, {0.0, 1.6}, fixed, "Arms outwards while falling"}, self.armYaw);
+  }
+};
+
+class FallControl {
+ public:
+  FallControl(const SkillLibrary& library, const FallParameters& parameters);
+
+  /// True while it is in control and has filled the targets.
+  bool update(const world::WorldState& world, SkillPlayer& player, JointTargets& targets);
+
+  bool rising() const { return phase_ == Phase::Rising; }
+  bool active() const { return phase_ != Phase::None; }
+  int attempts() const { return attempts_; }
+
+ private:
+  enum class Phase : std::uint8_t { None, Falling, Rising };
+  void protect(JointTargets& targets) const;
+  bool startRising(world::Posture posture, SkillPlayer& player, const world::WorldState& world,
+                   JointTargets& targets);
+
+  const SkillLibrary* library_;
+  FallParameters parameters_;
+  Phase phase_ = Phase::None;
+  int attempts_ = 0;         // since the robot last stood for a while
+  double lyingSince_ = 0.0;  // server time, s
+  bool lying_ = false;
+  double uprightSince_ = 0.0;  // server time, s
+};
+
+}  // namespace nonet::motion

@@ -1,0 +1,90 @@
+#include "nonet/motion/fall_control.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace nonet::motion {
+
+using model::Side;
+using world::Posture;
+
+namespace {
+
+constexpr double kStandsAgain = 2.0;  // s upright until a fall counts as a new one
+constexpr int kVariants = 3;
+
+struct RiseSkills {
+  std::array<std::string_view, kVariants> names;
+};
+constexpr RiseSkills kFront{{{"rise_front", "rise_front_2", "rise_front_3"}}};
+constexpr RiseSkills kBack{{{"rise_back", "rise_back_2", "rise_back_3"}}};
+constexpr RiseSkills kSide{{{"rise_side", "rise_side_2", "rise_side_3"}}};
+
+}  // namespace
+
+FallControl::FallControl(const SkillLibrary& library, const FallParameters& parameters)
+    : library_(&library), parameters_(parameters) {}
+
+bool FallControl::update(const world::WorldState& world, SkillPlayer& player, JointTargets& targets) {
+  const world::BodyState& body = world.body;
+  const bool upright = body.posture == Posture::Upright;
+  if (phase_ == Phase::None) {
+    if (upright) {
+      if (world.time - uprightSince_ > kStandsAgain) attempts_ = 0;
+      return false;
+    }
+    phase_ = Phase::Falling;
+    lying_ = false;
+  }
+  if (phase_ == Phase::Falling) {
+    if (upright) {
+      phase_ = Phase::None;
+      uprightSince_ = world.time;
+      return false;
+    }
+    const bool fallen = world::isFallen(body.posture);
+    if (fallen && !lying_) {
+      lying_ = true;
+      lyingSince_ = world.time;
+    }
+    const bool quiet = body.gyro.norm() < parameters_.quietRate;
+    const bool waited = lying_ && world.time - lyingSince_ > parameters_.longestWait;
+    if (!fallen || (!quiet && !waited) || !startRising(body.posture, player, world, targets)) {
+      protect(targets);
+      return true;
+    }
+  }
+  if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
+  // Over: either the robot stands, or the next attempt begins from what it has come to.
+  phase_ = upright ? Phase::None : Phase::Falling;
+  lying_ = false;
+  uprightSince_ = world.time;
+  if (phase_ == Phase::None) return false;
+  protect(targets);
+  return true;
+}
+
+void FallControl::protect(JointTargets& targets) const {
+  for (const Side side : {Side::Left, Side::Right}) {
+    setArm(side, ArmAttitude{parameters_.armPitch, parameters_.armYaw, 0.0, 0.0}, targets.angles);
+  }
+  targets.stiffness.fill(parameters_.softness);
+}
+
+bool FallControl::startRising(Posture posture, SkillPlayer& player, const world::WorldState& world,
+                              JointTargets& targets) {
+  const RiseSkills& skills = posture == Posture::FallenFront  ? kFront
+                             : posture == Posture::FallenBack ? kBack
+                                                              : kSide;
+  std::string_view name = skills.names[static_cast<std::size_t>(attempts_ % kVariants)];
+  if (library_->find(name) < 0) name = skills.names[0];
+  targets.angles = world.body.joints;
+  targets.stiffness.fill(1.0);
+  if (!player.start(name, posture == Posture::FallenRight, targets.angles)) return false;
+  ++attempts_;
+  phase_ = Phase::Rising;
+  return true;
+}
+
+}  // namespace nonet::motion
