@@ -66,8 +66,8 @@ MotionRequest handleBall(const world::WorldState& world, const Vector2& p_FTarge
     return walk(Pose2(ball + parameters.dribbleThrough * along, direction), false);
   }
 
-  // Not behind the ball yet: go around it, on the side on which the robot already is. `behind` of the approach point
-  // itself is behindBall, so half of it tells the two cases apart without flicker.
+  // Not behind the ball yet: go around it, on the side on which the robot already is. `behind` of the
+  // approach point itself is behindBall, so half of it tells the two cases apart without flicker.
   Vector2 next = ball - parameters.behindBall * along;
   if (behind < 0.5 * parameters.behindBall) {
     const double side = besides > 0.0 ? -1.0 : 1.0;

@@ -57,6 +57,7 @@ Intent Behavior::update(const WorldState& world, bool motionBusy) {
   Intent intent;
   intent.motion = stand();
   lookAtBall(world, intent.head);
+  intent.say = radio_.update(world);
   const Phase phase = world.game.phase;
   if (phase != lastPhase_) {
     beamed_ = false;

@@ -7,6 +7,7 @@
 #include "nonet/team/formation.h"
 #include "nonet/team/intent.h"
 #include "nonet/team/parameters.h"
+#include "nonet/team/radio.h"
 #include "nonet/team/role_assignment.h"
 #include "nonet/world/world_state.h"
 
@@ -30,6 +31,7 @@ class Behavior {
 
   TeamParameters parameters_;
   RoleAssigner assigner_;
+  Radio radio_;
   Role role_ = Role::Stopper;
   Vector2 roleTarget_ = Vector2::Zero();  // own field frame, m
   world::Phase lastPhase_ = world::Phase::Other;
