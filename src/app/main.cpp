@@ -15,6 +15,9 @@ int run(int argc, char** argv) {
   nonet::app::addMatchCommand(app, exitCode);
   nonet::app::addReplayCommand(app, exitCode);
   nonet::app::addFidelityCommand(app, exitCode);
+  nonet::app::addOptimizeCommand(app, exitCode);
+  nonet::app::addSkillCommand(app, exitCode);
+  nonet::app::addWalkReportCommand(app, exitCode);
   CLI11_PARSE(app, argc, argv);
   return exitCode;
 }

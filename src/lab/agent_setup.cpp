@@ -22,6 +22,7 @@ agent::AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string&
   config.robotType = choice.robotType;
   config.seed = choice.seed;
   config.skillFolder = dataFolder + "/skills";
+  config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
   config.startPose = choice.startPose;
   const std::string typeFile = dataFolder + "/params/type" + std::to_string(choice.robotType) + ".toml";
   if (std::filesystem::exists(typeFile)) config::overlayFile(config.parameters, typeFile);
@@ -47,6 +48,7 @@ agent::AgentConfig agentFromLog(const protocol::LogHeader& header, const std::st
   config.robotType = header.robotType;
   config.seed = header.seed;
   config.skillFolder = dataFolder + "/skills";
+  config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
   config::overlayText(config.parameters, header.parameters, "header of the log");
   return config;
 }

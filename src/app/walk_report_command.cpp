@@ -1,0 +1,70 @@
+// nonet walk-report: how a parameter set walks.
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "nonet/app/commands.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/lab/agent_setup.h"
+#include "nonet/lab/walk_report.h"
+
+namespace nonet::app {
+
+namespace {
+
+struct WalkReportArguments {
+  lab::AgentChoice choice;
+  lab::WalkReportSettings settings;
+  bool json = false;
+  std::string svgFile;
+  std::string traceFile;
+};
+
+void writeFile(const std::string& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file));
+}
+
+int run(WalkReportArguments arguments) {
+  const agent::AgentConfig config = lab::makeAgentConfig(arguments.choice, dataFolder());
+  lab::WalkReportSettings& settings = arguments.settings;
+  settings.seed = arguments.choice.seed;
+  settings.setup.robotType = arguments.choice.robotType;
+  settings.setup.motion = config.parameters.motion;
+  settings.setup.world = config.parameters.world;
+  settings.setup.skillFolder = config.skillFolder;
+  if (!arguments.traceFile.empty()) {
+    writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));
+  }
+  const lab::WalkReport report = lab::measureWalk(settings);
+  if (!arguments.svgFile.empty()) writeFile(arguments.svgFile, lab::walkReportSvg(report));
+  fmt::print("{}", arguments.json ? lab::walkReportJson(report) : lab::walkReportTable(report));
+  return 0;
+}
+
+}  // namespace
+
+void addWalkReportCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand(
+      "walk-report",
+      "Measure a parameter set: speeds in 16 directions and turning, falls, confidence intervals");
+  const auto arguments = std::make_shared<WalkReportArguments>();
+  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
+  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
+      ->check(CLI::ExistingFile);
+  command->add_option("--trials", arguments->settings.trials, "Walks per measure")
+      ->check(CLI::Range(1, 10000));
+  command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
+  command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
+  command->add_flag("--json", arguments->json, "Print JSON");
+  command->add_option("--svg", arguments->svgFile, "Write a polar plot of the speeds");
+  command->add_option("--trace", arguments->traceFile, "Write a plot of one second of fast walking forward");
+  command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
+}
+
+}  // namespace nonet::app
