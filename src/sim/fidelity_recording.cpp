@@ -99,6 +99,7 @@ RecordedCycle cycleFrom(const json& row) {
   if (row.contains("ball")) cycle.ball = vector(row["ball"]);
   cycle.trainer = row.value("trainer", "");
   cycle.extra = row.value("extra", "");
+  cycle.message = row.value("message", "");
   return cycle;
 }
 

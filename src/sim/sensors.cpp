@@ -147,7 +147,8 @@ void AgentSensors::fill(const World& world, RobotHandle self, const SensorContex
   addJoint(world, self, model::JointId::Head2, percept);
   if (context.vision && context.field != nullptr) {
     const ScenePose& head = world.bodyPose(self, model::BodyId::Head);
-    Camera camera(head, calibration_, context.noise ? &random : nullptr);
+    const Vector3f calibration = context.noise ? calibration_ : Vector3f::Zero();
+    Camera camera(head, calibration, context.noise ? &random : nullptr);
     protocol::Vision& vision = percept.beginVision();
     seeFixedObjects(*context.field, world.ballPose().position, camera, vision);
     for (const VisiblePlayer& player : context.players) seePlayer(world, player, camera, vision);

@@ -250,19 +250,15 @@ void Camera::addNoise(SeenPoint& seen) {
 std::optional<SeenPoint> Camera::look(const Vector3f& position) {
   const Vector3f away = position - head_.position;
   if (scene::length(away) <= kNearest) return std::nullopt;
-  Vector3f u = scene::inverseRotate(head_.rotation, away);
-  if (noise_ != nullptr) u += calibration_;
-  SeenPoint seen = polar(u);
+  SeenPoint seen = polar(scene::inverseRotate(head_.rotation, away) + calibration_);
   if (!inCone(seen)) return std::nullopt;
   addNoise(seen);
   return seen;
 }
 
 std::optional<Camera::SeenSegment> Camera::look(const VisionField::Line& line) {
-  const auto inHead = [this](const Vector3f& p) {
-    Vector3f u = scene::inverseRotate(head_.rotation, p - head_.position);
-    if (noise_ != nullptr) u += calibration_;
-    return u;
+  const auto inHead = [this](const Vector3f& p) -> Vector3f {
+    return scene::inverseRotate(head_.rotation, p - head_.position) + calibration_;
   };
   const auto visible = [](const SeenPoint& p) { return p.distance > kNearest && inCone(p); };
   Clipped clipped{inHead(line.begin), inHead(line.end)};

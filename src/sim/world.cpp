@@ -112,8 +112,8 @@ Vector3f World::bodyVelocity(RobotHandle robot, model::BodyId body) const {
 }
 Vector3f World::gyro(RobotHandle robot) const {
   const dBodyID torso = implementation_->robot(robot).bodies.front().body;
-  return scene::inverseRotate(scene::rotationFromOde(dBodyGetRotation(torso)),
-                              scene::fromOde(dBodyGetAngularVel(torso)));
+  return scene::inverseDirection(scene::rotationFromOde(dBodyGetRotation(torso)),
+                                 scene::fromOde(dBodyGetAngularVel(torso)));
 }
 Vector3f World::accelerometer(RobotHandle robot) const {
   return implementation_->robot(robot).acceleration;

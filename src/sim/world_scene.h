@@ -55,6 +55,12 @@ inline Vector3f inverseTransform(const ScenePose& pose, const Vector3f& v) {
   return transform(inverse, v);
 }
 
+/// A direction in the frame of `r`, by way of the inverse matrix with its (zero) position: this differs from
+/// inverseRotate() in the sign of zeros, which messages show as "-0.00".
+inline Vector3f inverseDirection(const Matrix3f& r, const Vector3f& v) {
+  return inverseTransform(ScenePose{r, Vector3f::Zero()}, v);
+}
+
 inline Matrix3f multiply(const Matrix3f& a, const Matrix3f& b) {
   Matrix3f product;
   for (int i = 0; i < 3; ++i) {

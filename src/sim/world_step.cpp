@@ -32,7 +32,7 @@ void sampleAcceleration(RobotNode& robot) {
   const Vector3f velocity = scene::fromOde(dBodyGetLinearVel(torso));
   const Vector3f change = (velocity - robot.lastVelocity) / kStep - kGravityVector;
   robot.lastVelocity = velocity;
-  robot.acceleration = scene::inverseRotate(scene::rotationFromOde(dBodyGetRotation(torso)), change);
+  robot.acceleration = scene::inverseDirection(scene::rotationFromOde(dBodyGetRotation(torso)), change);
 }
 
 // Server facts 3.2: the mean where both sides define a property, else the value of the one that does.

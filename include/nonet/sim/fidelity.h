@@ -40,6 +40,7 @@ struct RecordedCycle {
   Eigen::Vector3d ball = Eigen::Vector3d::Zero();
   std::string trainer;  // command on the monitor port
   std::string extra;    // other effectors of the first robot, verbatim
+  std::string message;  // the first robot's sense message, verbatim, if it was recorded
 };
 
 struct Recording {

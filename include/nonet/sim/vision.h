@@ -58,9 +58,11 @@ struct SeenPoint {
   protocol::Polar onWire() const;  // rounded as the text does
 };
 
-/// A look from one head pose. `noise` null: neither noise nor calibration error.
+/// A look from one head pose.
 class Camera {
  public:
+  /// `calibration` is added to every position in head axes; `noise` null: none is added. (A server without
+  /// noise has no calibration error either.)
   Camera(const ScenePose& head, const Vector3f& calibration, Random* noise)
       : head_(head), calibration_(calibration), noise_(noise) {}
 
