@@ -1,12 +1,13 @@
 // What can be learned: a task turns agent parameters and a seed into a fitness (higher is better). Tasks run
-// the real agent code on the in-process simulation with noise on. Adding a task is adding one file and one
-// line in registeredTasks().
+// the real agent code on the in-process physics. Adding a task is adding one file and one line in
+// registeredTasks().
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "nonet/agent/parameters.h"
@@ -36,6 +37,10 @@ class Task {
   /// Called from several threads at once. The same arguments always give the same result.
   virtual TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                               const TaskSettings& settings) const = 0;
+  /// Before the search starts: switches that the task needs on (the sprint task uses the sprint set).
+  virtual void prepare(agent::AgentParameters& /*parameters*/) const {}
+  /// Not in listings: for tests of the optimizer itself.
+  virtual bool hidden() const { return false; }
 };
 
 std::span<const Task* const> registeredTasks();

@@ -1,0 +1,57 @@
+// The obstacle course on which walks are learned and judged: MacAlpine et al., "Design and Optimization of an
+// Omnidirectional Humanoid Walk" (AAAI 2012), and AAMAS 2012, section 4.2. Long walks in all directions,
+// curves, quick changes, stop and go, left and right, noisy targets, weaving, extreme changes, spirals; and,
+// because a game needs them too, sidesteps and backward steps with a held heading and turns on the spot.
+//
+// Order, mirror images and sizes are drawn from the seed. Reward of a target: distance x time allowed / time
+// taken, or the distance made good when it was not reached in time; a stop costs the distance moved; a fall
+// costs 5 and the robot is set upright again.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nonet/lab/robot_trial.h"
+
+namespace nonet::lab {
+
+struct CourseLeg {
+  enum class Kind : std::uint8_t {
+    Walk,   // to the target, walking and turning at the same time
+    Shift,  // to the target, heading held
+    Turn,   // on the spot
+    Stop,
+  } kind = Kind::Walk;
+  Vector2 target = Vector2::Zero();  // m, seen from where the leg (or, chained, its item) began
+  double turn = 0.0;                 // Turn: rad
+  double time = 1.0;                 // s, allowed
+  bool chained = false;
+  double noise = 0.0;  // m, standard deviation of the target as the robot is told
+};
+
+struct CourseItem {
+  const char* name = "";
+  std::vector<CourseLeg> legs;
+};
+
+/// About a minute of walking.
+std::vector<CourseItem> makeCourse(std::uint64_t seed);
+
+struct CourseResult {
+  double reward = 0.0;
+  int falls = 0;
+  int targets = 0;  // that could be reached
+  int reached = 0;
+  double distance = 0.0;   // m made good
+  double time = 0.0;       // s walked
+  double stopDrift = 0.0;  // m moved in stops
+};
+
+struct CourseOptions {
+  motion::WalkSet set = motion::WalkSet::Automatic;
+  int mostFalls = 1000;  // then the rest of the course is not walked (and earns nothing)
+};
+
+CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options);
+
+}  // namespace nonet::lab

@@ -1,0 +1,303 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <numeric>
+#include <thread>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "nonet/app/commands.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/config/parameters.h"
+#include "nonet/lab/evaluator_mpi.h"
+#include "nonet/lab/optimization_run.h"
+#include "nonet/lab/optimize_report.h"
+#include "nonet/lab/solver_comparison.h"
+
+namespace nonet::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct OptimizeArguments {
+  std::string task;
+  std::string out;
+  lab::OptimizationConfig config;
+  std::string restarts = "none";
+  std::vector<std::string> parameterFiles;
+  int threads = 0;
+  bool mpi = false;
+  bool resume = false;
+  bool list = false;
+  std::string repeat;
+  std::string accept;
+  int compareSolvers = 0;
+  std::string reportFolder;
+};
+
+int threadsOf(const OptimizeArguments& arguments) {
+  return arguments.threads > 0 ? arguments.threads
+                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  return fmt::format("{:%Y-%m-%d}", utc);
+}
+
+int listTasks() {
+  for (const lab::Task* task : lab::registeredTasks()) {
+    if (task->hidden()) continue;
+    fmt::print("{}: {}\n  moves {}\n", task->name(), task->description(),
+               fmt::join(task->searchedKeys(), ", "));
+  }
+  fmt::print("\nParameters that may be moved, with the range where the search starts:\n");
+  for (const auto& view : config::listParameters(agent::AgentParameters{})) {
+    const auto& range = view.declaration.searchRange;
+    if (!range) continue;
+    fmt::print("  {} = {} ({} .. {} {}) {}\n", view.key, view.value, range->low, range->high,
+               config::unitName(view.declaration.unit), view.declaration.text);
+  }
+  return 0;
+}
+
+void printMeasurement(const lab::Measurement& measurement) {
+  fmt::print("fitness {:.6f} +- {:.4f}", measurement.fitness, measurement.standardError);
+  for (const auto& [name, value] : measurement.measures) fmt::print(", {} {:.3f}", name, value);
+  fmt::print("\n");
+}
+
+int repeatFile(const OptimizeArguments& arguments) {
+  const auto repetitions = lab::repeatLearned(arguments.repeat, dataFolder(), threadsOf(arguments));
+  if (repetitions.empty()) {
+    fmt::print(stderr, "nonet optimize: {} has no [provenance.<task>] table\n", arguments.repeat);
+    return 2;
+  }
+  int exitCode = 0;
+  for (const auto& [recorded, repeated] : repetitions) {
+    const bool same =
+        std::abs(recorded.fitness - repeated.fitness) <= 1e-9 * (1.0 + std::abs(recorded.fitness));
+    fmt::print("{}: recorded {:.6f} over {} trials, {}: ", recorded.task, recorded.fitness,
+               recorded.seeds.size(), same ? "confirmed" : "DIFFERENT");
+    printMeasurement(repeated);
+    if (!same) exitCode = 1;
+  }
+  return exitCode;
+}
+
+// Measures a set on fresh seeds and writes it with that fitness as its provenance.
+int acceptFile(OptimizeArguments& arguments) {
+  lab::OptimizationConfig& config = arguments.config;
+  const lab::Task& task = lab::findTask(arguments.task);
+  agent::AgentParameters parameters;
+  config::overlayFile(parameters, arguments.accept);
+  std::vector<lab::Provenance> origins = lab::readProvenance(arguments.accept);
+  lab::Provenance origin;
+  for (const lab::Provenance& known : origins) {
+    if (known.task == arguments.task) origin = known;
+  }
+  origin.task = arguments.task;
+  origin.robotType = config.robotType;
+  origin.quickSolver = config.quickSolver;
+  origin.seeds = lab::trialSeeds(config.seed, 0, 1, config.trials);
+  origin.date = today();
+  origin.version = NONET_VERSION;
+  const lab::Measurement measurement =
+      lab::measure(task, parameters, origin.seeds, config.taskSettings(dataFolder()), threadsOf(arguments));
+  printMeasurement(measurement);
+  origin.fitness = measurement.fitness;
+  origin.standardError = measurement.standardError;
+  lab::replaceProvenance(origins, origin);
+  if (!arguments.out.empty()) {
+    const lab::SearchSpace space(parameters, config.keys.empty() ? task.searchedKeys() : config.keys);
+    lab::writeAtomically(arguments.out, lab::learnedToml(parameters, space.keys(), origins));
+  }
+  return 0;
+}
+
+// Timings go here and to the terminal; generations.jsonl holds none, so that its bytes can be compared.
+class Progress {
+ public:
+  explicit Progress(const std::string& folder, int generations)
+      : log_(folder + "/progress.log", std::ios::app), generations_(generations) {}
+
+  void show(const lab::GenerationReport& report, int workers) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (first_ < 0) {
+      first_ = report.generation - 1;
+      firstTrials_ = report.generation == 1 ? 0 : lastTrials_;
+    }
+    const double rate = static_cast<double>(report.trials - firstTrials_) / std::max(seconds, 1e-9);
+    const double left = seconds / (report.generation - first_) * (generations_ - report.generation);
+    const std::string line = fmt::format(
+        "generation {}/{}  best {:.3f}  mean {:.3f}  incumbent {:.3f}  sigma {:.4f}  {:.2f} trials/s on {} "
+        "workers  {:.0f} s gone, about {:.0f} s left",
+        report.generation, generations_, report.best, report.mean, report.incumbent, report.sigma, rate,
+        workers, seconds, left);
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+    log_ << line << std::endl;
+  }
+  void startFrom(std::int64_t trials) { lastTrials_ = trials; }
+
+ private:
+  std::ofstream log_;
+  int generations_;
+  Clock::time_point start_ = Clock::now();
+  int first_ = -1;
+  std::int64_t firstTrials_ = 0;
+  std::int64_t lastTrials_ = 0;
+};
+
+void optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::string& folder) {
+  Progress progress(folder, run.config().generations);
+  progress.startFrom(run.trials());
+  lab::GenerationReport report;
+  while (run.step(evaluator, report)) progress.show(report, evaluator.workers());
+  fmt::print("best parameters: {}/best.toml\n", folder);
+}
+
+lab::OptimizationRun openRun(OptimizeArguments& arguments, bool generationsGiven) {
+  if (arguments.resume) {
+    return lab::OptimizationRun::resume(
+        arguments.out, generationsGiven ? std::optional<int>(arguments.config.generations) : std::nullopt);
+  }
+  lab::OptimizationConfig& config = arguments.config;
+  config.task = arguments.task;
+  lab::findTask(config.task);
+  config.restarts = lab::restartSchemeOf(arguments.restarts);
+  config.date = today();
+  config.version = NONET_VERSION;
+  lab::setStart(config, dataFolder(), arguments.parameterFiles);
+  return lab::OptimizationRun::create(arguments.out, config);
+}
+
+int runMpi(OptimizeArguments& arguments, bool generationsGiven) {
+  lab::MpiJob job;
+  if (job.rank() != 0) {
+    const std::string text = job.share({});
+    if (text.empty()) return 1;  // rank 0 has said why
+    const auto config = lab::OptimizationConfig::fromJson(nlohmann::json::parse(text));
+    lab::serveEvaluations(job, lab::makeObjective(config, dataFolder()));
+    return 0;
+  }
+  std::unique_ptr<lab::OptimizationRun> run;
+  try {
+    run = std::make_unique<lab::OptimizationRun>(openRun(arguments, generationsGiven));
+  } catch (...) {
+    job.share({});
+    throw;
+  }
+  job.share(run->config().toJson().dump());
+  const auto evaluator = lab::makeMpiEvaluator(job, lab::makeObjective(run->config(), dataFolder()));
+  optimize(*run, *evaluator, arguments.out);
+  return 0;
+}
+
+int runThreads(OptimizeArguments& arguments, bool generationsGiven) {
+  lab::OptimizationRun run = openRun(arguments, generationsGiven);
+  const auto evaluator =
+      lab::makeThreadEvaluator(lab::makeObjective(run.config(), dataFolder()), threadsOf(arguments));
+  optimize(run, *evaluator, arguments.out);
+  return 0;
+}
+
+int compareSolvers(OptimizeArguments& arguments) {
+  arguments.config.task = arguments.task;
+  lab::setStart(arguments.config, dataFolder(), arguments.parameterFiles);
+  const lab::SolverComparison comparison =
+      lab::compareSolvers(arguments.config, arguments.compareSolvers, dataFolder(), threadsOf(arguments));
+  for (const auto& [exact, quick] : comparison.fitness)
+    fmt::print("exact {:9.4f}  quick {:9.4f}\n", exact, quick);
+  fmt::print(
+      "{} sets, {} trials each: Spearman's rank correlation {:.3f}; seconds per trial: exact {:.3f}, "
+      "quick {:.3f}\n",
+      comparison.fitness.size(), arguments.config.trials, comparison.rankCorrelation, comparison.exactSeconds,
+      comparison.quickSeconds);
+  return 0;
+}
+
+int runOptimize(OptimizeArguments& arguments, bool generationsGiven) {
+  if (arguments.list) return listTasks();
+  if (!arguments.repeat.empty()) return repeatFile(arguments);
+  if (arguments.task.empty() && !arguments.resume) {
+    fmt::print(stderr, "nonet optimize: name a task; --list shows them\n");
+    return 2;
+  }
+  if (!arguments.accept.empty()) return acceptFile(arguments);
+  if (arguments.compareSolvers > 0) return compareSolvers(arguments);
+  if (arguments.out.empty()) {
+    fmt::print(stderr, "nonet optimize: --out FOLDER says where the run is kept\n");
+    return 2;
+  }
+  return arguments.mpi ? runMpi(arguments, generationsGiven) : runThreads(arguments, generationsGiven);
+}
+
+void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
+  lab::OptimizationConfig& config = arguments.config;
+  command.add_option("--type", config.robotType, "Robot type")->check(CLI::Range(0, 4));
+  command.add_option("--population", config.population, "Candidates per generation; 0: CMA-ES' default");
+  command.add_option("--sigma", config.sigma, "First step size as a share of the search ranges")
+      ->capture_default_str();
+  command.add_option("--trials", config.trials, "Seeds per candidate, the same for all of a generation")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--validation-every", config.validationEvery, "Generations between validations")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--validation-trials", config.validationTrials, "Fresh seeds per validation")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_flag("--quick", config.quickSolver, "Iterative physics: faster, not exact");
+  command.add_flag("--racing", config.racing, "The worse half of a generation gets half of the trials");
+  command.add_option("--restarts", arguments.restarts, "none, ipop or bipop")->capture_default_str();
+  command.add_option("--keys", config.keys, "Prefixes of the parameters to move; default: the task's");
+  command.add_option("--params", arguments.parameterFiles, "Parameter files where the search starts")
+      ->check(CLI::ExistingFile);
+  command.add_option("--seed", config.seed, "Decides every random number of the run")->capture_default_str();
+}
+
+}  // namespace
+
+void addOptimizeCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("optimize", "Learns parameters with CMA-ES");
+  auto arguments = std::make_shared<OptimizeArguments>();
+  command->add_option("task", arguments->task, "What to learn; --list shows the tasks");
+  command->add_option("--out", arguments->out, "Folder of the run; with --accept the file to write");
+  CLI::Option* generations =
+      command->add_option("--generations", arguments->config.generations, "How many; extends with --resume")
+          ->capture_default_str();
+  addSearchOptions(*command, *arguments);
+  command->add_option("--threads", arguments->threads, "Evaluations at once; 0: one per core");
+  command->add_flag("--mpi", arguments->mpi, "Evaluate on all ranks of this MPI job (under mpirun or srun)");
+  command->add_flag("--resume", arguments->resume, "Continue the run in --out after a kill at any point");
+  command->add_flag("--list", arguments->list, "Show tasks and parameters");
+  command->add_option("--repeat", arguments->repeat, "Measure a learned file with the seeds it names")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--accept", arguments->accept,
+                   "Measure a file on TRIALS fresh seeds of the task, write it to --out with that fitness")
+      ->check(CLI::ExistingFile);
+  command->add_option("--compare-solvers", arguments->compareSolvers,
+                      "Rank correlation of quick and exact physics over so many random sets");
+  CLI::App* report = command->add_subcommand("report", "Writes FOLDER/report.html: curves and paths");
+  report->add_option("folder", arguments->reportFolder, "Folder of a run")->required();
+  command->callback([arguments, &exitCode, report, generations] {
+    if (report->parsed()) {
+      fmt::print("{}\n", lab::writeOptimizationReport(arguments->reportFolder));
+    } else {
+      exitCode = runOptimize(*arguments, generations->count() > 0);
+    }
+  });
+}
+
+}  // namespace nonet::app

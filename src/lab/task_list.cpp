@@ -1,0 +1,49 @@
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "tasks.h"
+
+namespace nonet::lab {
+
+std::span<const Task* const> registeredTasks() {
+  static const std::array<const Task*, 3> tasks{&goToTargetTask(), &sprintTask(), &quadraticTask()};
+  return tasks;
+}
+
+const Task& findTask(std::string_view name) {
+  std::string known;
+  for (const Task* task : registeredTasks()) {
+    if (task->name() == name) return *task;
+    if (!task->hidden()) known += fmt::format("{}{}", known.empty() ? "" : ", ", task->name());
+  }
+  throw std::runtime_error(fmt::format("unknown task '{}': use one of {}", name, known));
+}
+
+TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) {
+  TrialSetup setup;
+  setup.robotType = settings.robotType;
+  setup.motion = parameters.motion;
+  setup.world = parameters.world;
+  setup.skillFolder = settings.dataFolder + "/skills";
+  setup.seed = seed;
+  setup.physics.solver =
+      settings.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
+  return setup;
+}
+
+TaskResult courseTask(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings, const CourseOptions& options) {
+  const CourseResult course = runCourse(trialSetup(parameters, seed, settings), seed, options);
+  return {.fitness = course.reward,
+          .measures = {{"falls", course.falls},
+                       {"targets", course.targets},
+                       {"reached", course.reached},
+                       {"distance_m", course.distance},
+                       {"time_s", course.time},
+                       {"stopDrift_m", course.stopDrift}}};
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,43 @@
+// sprint: the same course with the goToTarget set as it is; the sprint set takes over when the target lies
+// straight ahead (AAMAS 2012, section 4.2), so learning it includes the changes between the two.
+#include "nonet/config/parameters.h"
+#include "nonet/lab/target_course.h"
+
+#include "tasks.h"
+
+namespace nonet::lab {
+
+namespace {
+
+class SprintTask final : public Task {
+ public:
+  std::string_view name() const override { return "sprint"; }
+  std::string_view description() const override {
+    return "the course of goToTarget, whose set is frozen; the sprint set runs straight at the target";
+  }
+  std::vector<std::string> searchedKeys() const override { return {"motion.sprint."}; }
+
+  // The search begins at the walk set, unless a sprint set was learned before.
+  void prepare(agent::AgentParameters& parameters) const override {
+    parameters.motion.selection.useSprint = true;
+    const auto same = [](motion::WalkParameters a, motion::WalkParameters b) {
+      return config::toToml(a) == config::toToml(b);
+    };
+    if (same(parameters.motion.sets.sprint, motion::MotionParameters{}.sets.sprint))
+      parameters.motion.sets.sprint = parameters.motion.sets.goToTarget;
+  }
+
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override {
+    return courseTask(parameters, seed, settings, {});
+  }
+};
+
+}  // namespace
+
+const Task& sprintTask() {
+  static const SprintTask task;
+  return task;
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,21 @@
+// The list of tasks and what they share.
+#pragma once
+
+#include "nonet/lab/robot_trial.h"
+#include "nonet/lab/target_course.h"
+#include "nonet/lab/task.h"
+
+namespace nonet::lab {
+
+const Task& goToTargetTask();
+const Task& sprintTask();
+const Task& quadraticTask();
+
+TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings);
+
+/// The course as a task.
+TaskResult courseTask(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings, const CourseOptions& options);
+
+}  // namespace nonet::lab
