@@ -161,7 +161,8 @@ std::optional<SayMessage> decodeSay(std::string_view text, std::string_view team
   }
   BitReader reader(writer.bits);
   if (reader.get(3) != kSayVersion) return std::nullopt;
-  SayMessage message;
+  std::optional<SayMessage> result(std::in_place);
+  SayMessage& message = *result;
   message.unum = static_cast<int>(reader.get(4));
   message.X_FR.translation.x() = restore(reader.get(10), kReachX, kPlaceSteps);
   message.X_FR.translation.y() = restore(reader.get(10), kReachY, kPlaceSteps);
@@ -169,14 +170,14 @@ std::optional<SayMessage> decodeSay(std::string_view text, std::string_view team
   message.fallen = reader.get(1) != 0;
   message.sigma = kSigmas[reader.get(2)];
   const bool ballKnown = reader.get(1) != 0;
-  SayMessage::Ball ball;
+  SayMessage::Ball& ball = message.ball.emplace();
   ball.p_FB.x() = restore(reader.get(10), kReachX, kPlaceSteps);
   ball.p_FB.y() = restore(reader.get(10), kReachY, kPlaceSteps);
   ball.v_FB.x() = restore(reader.get(7), kReachSpeed, kSpeedSteps);
   ball.v_FB.y() = restore(reader.get(7), kReachSpeed, kSpeedSteps);
   const double share = reader.get(5) / 31.0;
   ball.age = kReachAge * share * share;
-  if (ballKnown) message.ball = ball;
+  if (!ballKnown) message.ball.reset();
   const std::uint32_t time = reader.get(5);
   if (time != kNoTime) message.timeToBall = time * kTimeStep;
   const std::uint32_t vote = reader.get(22);
@@ -186,7 +187,7 @@ std::optional<SayMessage> decodeSay(std::string_view text, std::string_view team
   }
   if (reader.get(kCheckBits) != checkSum(writer.bits, team)) return std::nullopt;
   if (message.unum < 1 || message.unum > 11) return std::nullopt;
-  return message;
+  return result;
 }
 
 int saySlot(double serverTime) {

@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "nonet/math/angle.h"
+#include "nonet/world/ball_tracker.h"
 #include "nonet/world/body_tracker.h"
 #include "nonet/world/game_tracker.h"
 #include "nonet/world/localization.h"
+#include "nonet/world/player_tracker.h"
 
 namespace nonet::world {
 
@@ -54,11 +56,14 @@ struct WorldModel::Stages {
 
   void fillSelf();
   void followBeam();
-  void followBall(const protocol::Percept& percept);
+  void listen(const protocol::Percept& percept);
+  void followOthers(const protocol::Percept& percept);
 
   BodyTracker body;
   GameTracker game;
   Localization localization;
+  BallTracker ball;
+  PlayerTracker players;
   WorldState state;
   std::array<std::optional<Pose2>, kBeamDelay> beams;  // asked for, newest last
 };
@@ -97,18 +102,42 @@ void WorldModel::Stages::followBeam() {
   localization.placeAt(X_WR, state.body);
 }
 
-void WorldModel::Stages::followBall(const protocol::Percept& percept) {
-  BallState& ball = state.ball;
-  const BodyState& body = state.body;
-  ball.p_RB = body.odometryStep.inverse() * ball.p_RB;
-  if (percept.vision && percept.vision->ball) {
-    const Vector3 p_CB = percept.vision->ball->cartesian() - localization.belief().offset;
-    ball.p_FB = state.self.X_FC * p_CB;
-    ball.p_RB = state.self.X_FR.inverse() * Vector2(ball.p_FB.head<2>());
-    ball.lastSeen = percept.time;
+void WorldModel::Stages::listen(const protocol::Percept& percept) {
+  for (const protocol::Heard& heard : percept.heard) {
+    if (heard.self || (!heard.team.empty() && !(heard.team == state.game.team))) continue;
+    const auto message = protocol::decodeSay(heard.message, state.game.team);
+    if (!message || message->unum == state.game.unum) continue;
+    const double spokenAt = percept.time - kBeamDelay * kCycleTime;
+    state.radio[static_cast<std::size_t>(message->unum)] = {percept.time, *message};
+    players.hear({message->unum, message->X_FR, message->sigma + 0.05, message->fallen}, state);
+    if (message->ball) {
+      const auto& seen = *message->ball;
+      ball.hear({seen.p_FB, seen.v_FB, spokenAt - seen.age, message->sigma + 0.1}, percept.time);
+    }
   }
-  ball.p_FRest = ball.p_FB.head<2>();
-  ball.known = percept.time - ball.lastSeen < 3.0;
+}
+
+void WorldModel::Stages::followOthers(const protocol::Percept& percept) {
+  const Vector3& offset = localization.belief().offset;
+  ball.predict(state.body.cycleTime);
+  players.predict(state.body.cycleTime, state);
+  if (percept.vision) {
+    ball.see(*percept.vision, state.self, offset, state.time);
+    players.see(*percept.vision, offset, state);
+  }
+  listen(percept);
+  if (state.game.phase == Phase::BeforeKickOff) ball.hold(Vector2::Zero(), state.time);
+  ball.fill(state.ball, state.self, state.time);
+  if (state.game.unum >= 1 && state.game.unum <= kTeamSize) {
+    PlayerState& own = state.teammates[static_cast<std::size_t>(state.game.unum)];
+    own.X_FP = state.self.X_FR;
+    const Vector2 v_GR = state.body.v_GR.head<2>();
+    own.v_FP = Eigen::Rotation2Dd(state.self.X_FR.rotation - state.body.yaw) * v_GR;
+    own.sigma = std::sqrt(std::max(state.self.covariance(0, 0), state.self.covariance(1, 1)));
+    own.lastSeen = state.time;
+    own.known = own.headingKnown = localization.initialised();
+    own.fallen = isFallen(state.body.posture);
+  }
 }
 
 WorldModel::WorldModel(const model::RobotModel& model, const WorldParameters& parameters,
@@ -129,10 +158,13 @@ const WorldState& WorldModel::update(const protocol::Percept& percept) {
   state.field = stages.localization.map().geometry();
   if (stages.localization.lastCorrection() == state.time) {
     stages.body.correctTilt(stages.localization.tiltCorrection(), state.body);
-    stages.game.noticePlace(stages.localization.belief().p_WR.x(), state.game);
+    if (stages.game.noticePlace(stages.localization.belief().p_WR.x(), state.game)) {
+      stages.ball.mirror();
+      stages.players.mirror(state);
+    }
   }
   stages.fillSelf();
-  stages.followBall(percept);
+  stages.followOthers(percept);
   return state;
 }
 

@@ -10,6 +10,7 @@
 #include "nonet/math/pose2.h"
 #include "nonet/math/types.h"
 #include "nonet/protocol/percept.h"
+#include "nonet/protocol/say_codec.h"
 #include "nonet/world/body_state.h"
 
 namespace nonet::world {
@@ -94,13 +95,16 @@ struct SelfState {
 };
 
 struct BallState {
-  Vector3 p_FB = Vector3::Zero();            // m
-  Vector3 v_FB = Vector3::Zero();            // m/s
-  Vector2 p_RB = Vector2::Zero();            // in the robot frame on the ground, m
-  Matrix2 covariance = Matrix2::Identity();  // of p_FB (x, y), m^2
-  double lastSeen = kNever;                  // server time of the last own sighting, s
-  bool known = false;                        // seen or reported recently enough to act on
-  Vector2 p_FRest = Vector2::Zero();         // where it will stop if nobody touches it, m
+  Vector3 p_FB = Vector3::Zero();                    // m
+  Vector3 v_FB = Vector3::Zero();                    // m/s
+  Vector2 p_RB = Vector2::Zero();                    // in the robot frame on the ground, m
+  Matrix2 covariance = Matrix2::Identity();          // of p_FB (x, y), m^2
+  Matrix2 velocityCovariance = Matrix2::Identity();  // of v_FB (x, y), (m/s)^2
+  double lastSeen = kNever;                          // server time of the last own sighting, s
+  double lastReported = kNever;       // server time of the last sighting told by a team mate, s
+  double lastKick = kNever;           // server time at which its motion last changed, s
+  bool known = false;                 // seen or reported recently enough to act on
+  Vector2 p_FRest = Vector2::Zero();  // where it will stop if nobody touches it, m
 };
 
 struct PlayerState {
@@ -113,6 +117,12 @@ struct PlayerState {
   bool fallen = false;
 };
 
+/// The last radio message of a team mate.
+struct RadioReport {
+  double time = kNever;  // server time at which it was heard, s
+  protocol::SayMessage message;
+};
+
 struct WorldState {
   double time = 0.0;  // server time, s
   FieldGeometry field;
@@ -122,6 +132,7 @@ struct WorldState {
   BallState ball;
   std::array<PlayerState, kTeamSize + 1> teammates{};  // indexed by uniform number; [unum] is oneself
   std::array<PlayerState, kTeamSize + 1> opponents{};
+  std::array<RadioReport, kTeamSize + 1> radio{};  // indexed by uniform number
 };
 
 }  // namespace nonet::world

@@ -1,0 +1,38 @@
+// How the ball moves when nobody touches it: the server's drag, bounce and rolling (server facts 3.2, 3.3;
+// the constants are fitted to recorded rolls, drops and kicks).
+#pragma once
+
+#include <optional>
+
+#include "nonet/math/types.h"
+
+namespace nonet::world {
+
+struct BallMotion {
+  Vector3 p_FB = Vector3::Zero();  // m
+  Vector3 v_FB = Vector3::Zero();  // m/s
+};
+
+inline constexpr double kBallRestHeight = 0.0403;  // m, centre at rest: the ground is soft
+inline constexpr double kRollDecay = 1.062;        // 1/s: rolling, v' = -kRollDecay v
+inline constexpr double kAirDecay = 0.385;         // 1/s: drag 0.01 N s/m over 0.026 kg
+inline constexpr double kBounce = 0.66;            // vertical speed kept in a bounce
+inline constexpr double kBounceGrip = 0.8;         // horizontal speed kept in a bounce (it starts to roll)
+
+bool isFlying(const BallMotion& ball);
+
+/// Moves the ball by `dt` s (at most one cycle for a good bounce).
+void stepBall(BallMotion& ball, double dt);
+
+/// Where it comes to rest, m.
+Vector2 restPlace(const BallMotion& ball);
+
+/// When and where the centre crosses the line x = `x` (field frame), or nothing if it stops before.
+struct LineCrossing {
+  double time = 0.0;    // s from now
+  double y = 0.0;       // m
+  double height = 0.0;  // m
+};
+std::optional<LineCrossing> crossingOfLine(const BallMotion& ball, double x);
+
+}  // namespace nonet::world

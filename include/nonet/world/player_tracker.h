@@ -1,0 +1,43 @@
+// Team mates and opponents in the field frame, by team and number, from whichever body parts are seen and
+// from what team mates tell about themselves.
+//
+// Needs: own pose, the vision message, radio reports. Gives: PlayerState per number. Players without a number
+// (or of a third team) go to the nearest opponent that could have moved there, else to a free number.
+#pragma once
+
+#include "nonet/protocol/percept.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::world {
+
+class PlayerTracker {
+ public:
+  /// A team mate's report about itself.
+  struct Report {
+    int unum = 0;
+    Pose2 X_FP;
+    double sigma = 1.0;  // m
+    bool fallen = false;
+  };
+
+  void predict(double dt, WorldState& state) const;
+  void see(const protocol::Vision& vision, const Vector3& offset, WorldState& state) const;
+  void hear(const Report& report, WorldState& state) const;
+  /// The own team changed its side: half a turn for everybody.
+  void mirror(WorldState& state) const;
+
+ private:
+  struct Sighting {
+    Vector2 p_FP = Vector2::Zero();
+    double sigma = 1.0;
+    double heading = 0.0;
+    bool headingKnown = false;
+    std::optional<bool> fallen;
+  };
+  static std::optional<Sighting> evaluate(const protocol::SeenPlayer& seen, const Vector3& offset,
+                                          const SelfState& self);
+  static PlayerState* nearestOpponent(const Sighting& sighting, WorldState& state);
+  static void merge(const Sighting& sighting, double time, PlayerState& player);
+};
+
+}  // namespace nonet::world

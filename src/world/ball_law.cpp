@@ -1,0 +1,72 @@
+#include "nonet/world/ball_law.h"
+
+#include <cmath>
+
+namespace nonet::world {
+
+namespace {
+
+constexpr double kFlyingHeight = 0.075;  // m, above it the ball does not touch the ground
+constexpr double kLiftSpeed = 0.35;      // m/s, a bounce below it ends in rolling
+constexpr int kMaximumSteps = 300;       // of one cycle, for a flight
+
+}  // namespace
+
+bool isFlying(const BallMotion& ball) {
+  return ball.p_FB.z() > kFlyingHeight || std::abs(ball.v_FB.z()) > kLiftSpeed;
+}
+
+void stepBall(BallMotion& ball, double dt) {
+  if (!isFlying(ball)) {
+    // Exact solution of v' = -k v over the step.
+    const double keep = std::exp(-kRollDecay * dt);
+    ball.p_FB.head<2>() += (1.0 - keep) / kRollDecay * ball.v_FB.head<2>();
+    ball.v_FB.head<2>() *= keep;
+    ball.v_FB.z() = 0.0;
+    ball.p_FB.z() += (kBallRestHeight - ball.p_FB.z()) * std::min(1.0, 15.0 * dt);
+    return;
+  }
+  // The server's order: velocity first, then position with the new velocity.
+  ball.v_FB -= dt * kAirDecay * ball.v_FB;
+  ball.v_FB.z() -= dt * kGravity;
+  ball.p_FB += dt * ball.v_FB;
+  if (ball.p_FB.z() < kBallRestHeight && ball.v_FB.z() < 0.0) {
+    ball.p_FB.z() = kBallRestHeight;
+    const double up = -kBounce * ball.v_FB.z();
+    ball.v_FB.z() = up > kLiftSpeed ? up : 0.0;
+    ball.v_FB.head<2>() *= kBounceGrip;
+  }
+}
+
+Vector2 restPlace(const BallMotion& ball) {
+  BallMotion motion = ball;
+  for (int i = 0; i < kMaximumSteps && isFlying(motion); ++i) stepBall(motion, kCycleTime);
+  return motion.p_FB.head<2>() + motion.v_FB.head<2>() / kRollDecay;
+}
+
+std::optional<LineCrossing> crossingOfLine(const BallMotion& ball, double x) {
+  const double side = x - ball.p_FB.x();
+  BallMotion motion = ball;
+  double time = 0.0;
+  for (int i = 0; i < kMaximumSteps && isFlying(motion); ++i) {
+    const BallMotion before = motion;
+    stepBall(motion, kCycleTime);
+    const double left = x - motion.p_FB.x();
+    if (left * side <= 0.0) {
+      const double length = motion.p_FB.x() - before.p_FB.x();
+      const double share = length != 0.0 ? (x - before.p_FB.x()) / length : 0.0;
+      const Vector3 p = before.p_FB + share * (motion.p_FB - before.p_FB);
+      return LineCrossing{time + share * kCycleTime, p.y(), p.z()};
+    }
+    time += kCycleTime;
+  }
+  // Rolling: x(t) = x0 + v (1 - exp(-k t)) / k.
+  const double need = (x - motion.p_FB.x()) * kRollDecay;
+  const double speed = motion.v_FB.x();
+  if (speed == 0.0 || need / speed < 0.0 || need / speed >= 1.0) return std::nullopt;
+  const double share = need / speed;
+  return LineCrossing{time - std::log(1.0 - share) / kRollDecay,
+                      motion.p_FB.y() + share * motion.v_FB.y() / kRollDecay, motion.p_FB.z()};
+}
+
+}  // namespace nonet::world

@@ -1,0 +1,196 @@
+#include "nonet/world/player_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nonet/math/angle.h"
+#include "nonet/world/vision_frame.h"
+
+namespace nonet::world {
+
+namespace {
+
+using protocol::BodyPart;
+
+constexpr double kFallenHeadHeight = 0.33;  // m; a walking head is at 0.5, a lying one below 0.2
+constexpr double kWalkSpeed = 0.5;          // m/s, growth of the uncertainty of an unseen player
+constexpr double kSpeedMemory = 0.4;        // s, smoothing of the velocity
+constexpr double kForget = 8.0;             // s
+constexpr double kForgetSigma = 3.0;        // m
+constexpr double kHeadingSigma = 0.35;      // rad, worst heading that is worth telling
+constexpr double kJump = 1.5;               // m, farther than any player walks between two sightings
+
+std::size_t at(BodyPart part) {
+  return static_cast<std::size_t>(part);
+}
+
+}  // namespace
+
+void PlayerTracker::predict(double dt, WorldState& state) const {
+  const auto move = [&](PlayerState& player) {
+    if (!player.known) return;
+    // A velocity is believed for about a second.
+    const double age = state.time - player.lastSeen;
+    if (age < 1.0) player.X_FP.translation += dt * player.v_FP;
+    if (age > 0.1) player.sigma += kWalkSpeed * dt;
+    if (age > kForget || player.sigma > kForgetSigma) player.known = false;
+  };
+  for (PlayerState& player : state.teammates) move(player);
+  for (PlayerState& player : state.opponents) move(player);
+}
+
+std::optional<PlayerTracker::Sighting> PlayerTracker::evaluate(const protocol::SeenPlayer& seen,
+                                                               const Vector3& offset, const SelfState& self) {
+  std::array<std::optional<Vector3>, protocol::kBodyPartCount> parts;
+  Vector2 sum = Vector2::Zero();
+  int count = 0;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!seen.parts[i]) continue;
+    parts[i] = self.X_FC * (ObservedPoint(*seen.parts[i]).p_CP - offset);
+    distance = std::max(distance, seen.parts[i]->distance);
+  }
+  // Pairs that are seen whole have the body between them; single limbs are only near it.
+  const auto pairMean = [&](BodyPart right, BodyPart left) {
+    if (!parts[at(right)] || !parts[at(left)]) return;
+    sum += 0.5 * (*parts[at(right)] + *parts[at(left)]).head<2>();
+    ++count;
+  };
+  if (parts[at(BodyPart::Head)]) {
+    sum += parts[at(BodyPart::Head)]->head<2>();
+    ++count;
+  }
+  pairMean(BodyPart::RFoot, BodyPart::LFoot);
+  pairMean(BodyPart::RLowerArm, BodyPart::LLowerArm);
+  Sighting sighting;
+  sighting.sigma = 0.05 + VisionNoise::kAzimuthSigma * distance;
+  if (count == 0) {
+    for (const auto& part : parts) {
+      if (!part) continue;
+      sum += part->head<2>();
+      ++count;
+    }
+    sighting.sigma += 0.1;
+  }
+  if (count == 0) return std::nullopt;
+  sighting.p_FP = sum / count;
+  if (parts[at(BodyPart::Head)]) sighting.fallen = parts[at(BodyPart::Head)]->z() < kFallenHeadHeight;
+
+  // Right to left limb, turned by -90 degrees, points forward. Feet and arms add up.
+  Vector2 left = Vector2::Zero();
+  const auto addPair = [&](BodyPart right, BodyPart leftPart) {
+    if (parts[at(right)] && parts[at(leftPart)]) {
+      left += (*parts[at(leftPart)] - *parts[at(right)]).head<2>();
+    }
+  };
+  addPair(BodyPart::RFoot, BodyPart::LFoot);
+  addPair(BodyPart::RLowerArm, BodyPart::LLowerArm);
+  const double noise = 2.0 * VisionNoise::kAzimuthSigma * distance;
+  if (left.norm() > 0.05 && noise / left.norm() < kHeadingSigma && !sighting.fallen.value_or(false)) {
+    sighting.heading = std::atan2(-left.x(), left.y());
+    sighting.headingKnown = true;
+  }
+  return sighting;
+}
+
+PlayerState* PlayerTracker::nearestOpponent(const Sighting& sighting, WorldState& state) {
+  PlayerState* nearest = nullptr;
+  double best = kJump;
+  for (std::size_t i = 1; i < state.opponents.size(); ++i) {
+    PlayerState& player = state.opponents[i];
+    const double distance = (player.X_FP.translation - sighting.p_FP).norm();
+    if (player.known && player.lastSeen < state.time && distance < best) {
+      best = distance;
+      nearest = &player;
+    }
+  }
+  if (nearest != nullptr) return nearest;
+  for (std::size_t i = state.opponents.size() - 1; i > 0; --i) {
+    if (!state.opponents[i].known) return &state.opponents[i];
+  }
+  return nullptr;
+}
+
+void PlayerTracker::merge(const Sighting& sighting, double time, PlayerState& player) {
+  const double dt = time - player.lastSeen;
+  const Vector2 innovation = sighting.p_FP - player.X_FP.translation;
+  const bool jumped = !player.known || dt > 2.0 || innovation.norm() > kJump;
+  if (jumped) {
+    player.X_FP.translation = sighting.p_FP;
+    player.v_FP.setZero();
+    player.sigma = sighting.sigma;
+    player.headingKnown = false;
+  } else {
+    const double variance = player.sigma * player.sigma + 1e-4;
+    const double gain = variance / (variance + sighting.sigma * sighting.sigma);
+    player.X_FP.translation += gain * innovation;
+    player.sigma = std::sqrt((1.0 - gain) * variance);
+    if (dt > 0.5 * kCycleTime) {
+      const double memory = std::exp(-dt / kSpeedMemory);
+      player.v_FP += (1.0 - memory) * gain / std::max(dt, 0.06) * innovation;
+    }
+    constexpr double kTopSpeed = 1.5;  // m/s
+    if (player.v_FP.norm() > kTopSpeed) player.v_FP *= kTopSpeed / player.v_FP.norm();
+  }
+  if (sighting.headingKnown) {
+    player.X_FP.rotation =
+        player.headingKnown
+            ? wrapAngle(player.X_FP.rotation + 0.5 * angleDifference(sighting.heading, player.X_FP.rotation))
+            : sighting.heading;
+    player.headingKnown = true;
+  }
+  if (sighting.fallen) player.fallen = *sighting.fallen;
+  player.known = true;
+  player.lastSeen = time;
+}
+
+void PlayerTracker::see(const protocol::Vision& vision, const Vector3& offset, WorldState& state) const {
+  if (!state.self.localized && state.self.covariance(0, 0) > 1.0) return;
+  // First those with numbers, so that the others find the free tracks.
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const protocol::SeenPlayer& seen : vision.players) {
+      const bool numbered = seen.unum >= 1 && seen.unum <= kTeamSize;
+      const bool own = seen.team == state.game.team;
+      if ((pass == 0) != numbered) continue;
+      if (own && (seen.unum == state.game.unum || !numbered)) continue;  // the own arms
+      const auto sighting = evaluate(seen, offset, state.self);
+      if (!sighting) continue;
+      PlayerState* player = nullptr;
+      if (!numbered) {
+        player = nearestOpponent(*sighting, state);
+      } else {
+        player = &(own ? state.teammates : state.opponents)[static_cast<std::size_t>(seen.unum)];
+      }
+      if (player != nullptr) merge(*sighting, state.time, *player);
+    }
+  }
+}
+
+void PlayerTracker::hear(const Report& report, WorldState& state) const {
+  if (report.unum < 1 || report.unum > kTeamSize || report.unum == state.game.unum) return;
+  PlayerState& player = state.teammates[static_cast<std::size_t>(report.unum)];
+  Sighting sighting;
+  sighting.p_FP = report.X_FP.translation;
+  sighting.sigma = report.sigma;
+  sighting.heading = report.X_FP.rotation;
+  sighting.headingKnown = true;
+  sighting.fallen = report.fallen;
+  // A good sighting of this cycle beats a poor report, but the number's own word on falling always counts.
+  if (player.known && player.lastSeen == state.time && player.sigma < report.sigma) {
+    player.fallen = report.fallen;
+    return;
+  }
+  merge(sighting, state.time, player);
+}
+
+void PlayerTracker::mirror(WorldState& state) const {
+  const auto turn = [](PlayerState& player) {
+    player.X_FP = Pose2(-player.X_FP.translation, wrapAngle(player.X_FP.rotation + kPi));
+    player.v_FP *= -1.0;
+  };
+  for (PlayerState& player : state.teammates) turn(player);
+  for (PlayerState& player : state.opponents) turn(player);
+}
+
+}  // namespace nonet::world
