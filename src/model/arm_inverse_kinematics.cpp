@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -183,12 +184,13 @@ void fitArm(const RobotModel& model, Side side, const Vector3& p_RH, ArmAngles& 
   const Unknowns middle = 0.5 * (limb.low() + limb.high());
   Unknowns best = Unknowns::Zero();
   double bestCost = std::numeric_limits<double>::infinity();
-  for (int start = 0; start < 7; ++start) {
+  constexpr std::array<double, 3> kQuarterTurns{-1.0, 0.0, 1.0};
+  for (std::size_t start = 0; start < 7; ++start) {
     Unknowns x = middle;
     if (start == 0) {
       x = Eigen::Map<const Unknowns>(angles.data());
     } else {
-      x[0] = 0.5 * kPi * ((start - 1) / 2 - 1);
+      x[0] = 0.5 * kPi * kQuarterTurns[(start - 1) / 2];
       x[2] = start % 2 == 0 ? 1.0 : -1.0;
     }
     const double cost = boundedFit<4, 3>(residual, limb.low(), limb.high(), x, kMaxFitIterations);

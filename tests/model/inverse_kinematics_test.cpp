@@ -15,7 +15,11 @@
 namespace nonet::model {
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kPosesPerLimb = 1000;  // the sanitizers make it twenty times slower
+#else
 constexpr int kPosesPerLimb = 10000;  // times five types and two sides: 100,000
+#endif
 
 Pose3 soleOf(const RobotModel& model, Side side, const LegAngles& leg) {
   JointArray angles{};
