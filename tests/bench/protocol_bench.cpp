@@ -2,9 +2,10 @@
 // messages.
 //
 // The rival is sfsexp ("Small Fast S-Expression library", Debian libsexp-dev), the parser that the reference
-// server itself uses. It is timed on building and freeing its tree of strings only: finding the values in
-// the tree and converting their numbers, which parsePercept() includes, would come on top.
+// server itself uses. sfsexpTree times building and freeing its tree of strings only. sfsexpValues also
+// visits the tree once and converts the numbers in it, which is the least that parsePercept()'s result takes.
 #include <algorithm>
+#include <charconv>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,22 @@ BENCHMARK_CAPTURE(parsePercepts, all, kAll);
 BENCHMARK_CAPTURE(parsePercepts, longest, kLongest);
 
 #ifdef NONET_BENCH_SFSEXP
-void sfsexpTree(benchmark::State& state, Corpus corpus) {
+double sumOfNumbers(const sexp_t* node) {
+  double sum = 0.0;
+  for (; node != nullptr; node = node->next) {
+    if (node->ty == SEXP_LIST) {
+      sum += sumOfNumbers(node->list);
+    } else {
+      double value = 0.0;
+      std::from_chars(node->val, node->val + node->val_used, value);
+      sum += value;
+    }
+  }
+  return sum;
+}
+
+template <typename Use>
+void rival(benchmark::State& state, Corpus corpus, Use use) {
   const auto messages = recorded(LogLine::Kind::Received, corpus);
   // It reads one expression per call; a message is many, so they are put into one list.
   std::vector<std::string> lists;
@@ -81,14 +97,23 @@ void sfsexpTree(benchmark::State& state, Corpus corpus) {
         state.SkipWithError("the rival did not understand a message");
         return;
       }
-      benchmark::DoNotOptimize(tree);
+      benchmark::DoNotOptimize(use(tree));
       destroy_sexp(tree);
     }
   }
   count(state, messages);
 }
+
+void sfsexpTree(benchmark::State& state, Corpus corpus) {
+  rival(state, corpus, [](const sexp_t* tree) { return tree; });
+}
+void sfsexpValues(benchmark::State& state, Corpus corpus) {
+  rival(state, corpus, sumOfNumbers);
+}
 BENCHMARK_CAPTURE(sfsexpTree, all, kAll);
 BENCHMARK_CAPTURE(sfsexpTree, longest, kLongest);
+BENCHMARK_CAPTURE(sfsexpValues, all, kAll);
+BENCHMARK_CAPTURE(sfsexpValues, longest, kLongest);
 #endif
 
 void writePercepts(benchmark::State& state, Corpus corpus) {
