@@ -280,26 +280,11 @@ void BodyTracker::correctByFeet(BodyState& state) {
   covariance_ = joseph * covariance_ * joseph.transpose() + variance * gain * gain.transpose();
 }
 
-void BodyTracker::resetUpright(BodyState& state) {
-  const double yaw = yawOf(state.R_GR);
-  state.R_GR = Eigen::AngleAxisd(yaw, Vector3::UnitZ()).toRotationMatrix();
-  previousR_GR_ = state.R_GR;
-  settledVelocity_.setZero();
-  covariance_ << 0.01, 0.0, 0.0, 1e-6;
-  state.v_GR.setZero();
-  updateAngles(state);
-}
-
 void BodyTracker::correctTilt(const Vector3& rotation, BodyState& state) {
   const Matrix3 turn = smallRotation(Vector3(rotation.x(), rotation.y(), 0.0));
   state.R_GR = turn * state.R_GR;
   previousR_GR_ = turn * previousR_GR_;
   updateAngles(state);
-}
-
-void BodyTracker::correctVelocity(const Vector3& change, BodyState& state) {
-  settledVelocity_ += change;
-  state.v_GR += change;
 }
 
 void BodyTracker::updateAngles(BodyState& state) const {

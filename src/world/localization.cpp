@@ -27,6 +27,8 @@ constexpr double kKeptHeadingSigma = 0.01;  // rad, of a robot that was shifted 
 constexpr double kFreeSigma = 20.0;         // m
 constexpr double kFreeHeadingSigma = 2.0;   // rad
 
+constexpr double kExpectation = 1.0;  // s for which a beam is expected to show
+
 double headingOf(const Matrix3& R) {
   return std::atan2(R(1, 0), R(0, 0));
 }
@@ -241,6 +243,7 @@ bool Localization::challenged() {
 }
 
 bool Localization::relocate(const BodyState& body) {
+  if (const auto belief = fromExpectation(body); belief && tryFit(*belief, body)) return true;
   if (const auto belief = shiftedByLandmarks(body); belief && tryFit(*belief, body)) return true;
   if (const auto belief = fromLandmarks(body); belief && tryFit(*belief, body)) return true;
   if (!options_.useFilter) return false;
@@ -342,14 +345,18 @@ void Localization::followFilter(const BodyState& body) {
   adopt(belief, body);
 }
 
-void Localization::placeAt(const Pose2& X_WR, const BodyState& body) {
-  belief_ = wideBelief(X_WR, 0.04, 0.12, body);
-  belief_.p_WR.z() = 0.4;  // m, server facts 4.6
-  belief_.R_WR = turnAboutZ(X_WR.rotation);
-  yawOffset_ = wrapAngle(X_WR.rotation - headingOf(body.R_GR));
-  initialised_ = true;
-  misses_ = 0;
-  particles_.seedAround(X_WR, 0.05, 0.1, 0.8);
+void Localization::expectPlace(const Pose2& X_WR, double time) {
+  expectedPlace_ = X_WR;
+  expectedSince_ = time;
+}
+
+std::optional<PoseBelief> Localization::fromExpectation(const BodyState& body) const {
+  if (!expectedPlace_ || body.time - expectedSince_ > kExpectation) return std::nullopt;
+  // Beams scatter by 0.05 m and 10 degrees, uniform, and leave the torso upright at 0.4 m (server facts 4.6).
+  PoseBelief belief = wideBelief(*expectedPlace_, 0.04, 0.12, body);
+  belief.p_WR.z() = 0.4;
+  belief.R_WR = turnAboutZ(expectedPlace_->rotation);
+  return belief;
 }
 
 }  // namespace nonet::world

@@ -97,9 +97,8 @@ void WorldModel::Stages::followBeam() {
   const bool allowed =
       phase == Phase::BeforeKickOff || phase == Phase::OwnGoal || phase == Phase::OpponentGoal;
   if (!due || !allowed) return;
-  body.resetUpright(state.body);
   const Pose2 X_WR = playsFromRight(state.game) ? Pose2(0.0, 0.0, kPi) * *due : *due;
-  localization.placeAt(X_WR, state.body);
+  localization.expectPlace(X_WR, state.time);
 }
 
 void WorldModel::Stages::listen(const protocol::Percept& percept) {

@@ -27,15 +27,9 @@ class BodyTracker {
   /// Absorbs one message. A repeated one (same time) changes nothing and returns false.
   bool update(const protocol::Percept& percept, BodyState& state);
 
-  /// The server has put the torso upright and at rest (a beam): the orientation keeps only its heading.
-  void resetUpright(BodyState& state);
-
   /// Turns the estimate of the torso's orientation by a small rotation vector in G (its z part is ignored:
   /// the heading of G is free). Comes from the camera's fit.
   void correctTilt(const Vector3& rotation, BodyState& state);
-
-  /// Changes the estimate of the velocity (m/s, axes of G). Comes from the camera's fit.
-  void correctVelocity(const Vector3& change, BodyState& state);
 
  private:
   struct KinematicVelocity {

@@ -32,8 +32,9 @@ class Localization {
   /// Moves the belief with the body, then corrects it with what was seen (nullptr: nothing in this cycle).
   void update(const BodyState& body, const protocol::Vision* vision);
 
-  /// The robot will stand at this place (W), upright, with the server's beam noise.
-  void placeAt(const Pose2& X_WR, const BodyState& body);
+  /// The robot has probably been put at this place (W), upright, with the server's beam noise. It is a
+  /// hypothesis: taken when what is seen fits it and not the present belief.
+  void expectPlace(const Pose2& X_WR, double time);
 
   const FieldMap& map() const { return *map_; }
   const PoseBelief& belief() const { return belief_; }
@@ -56,6 +57,7 @@ class Localization {
   std::optional<PoseBelief> fromLandmarks(const BodyState& body) const;
   PoseBelief wideBelief(const Pose2& X_WR, double positionSigma, double headingSigma,
                         const BodyState& body) const;
+  std::optional<PoseBelief> fromExpectation(const BodyState& body) const;
   bool tryFit(PoseBelief belief, const BodyState& body);
   bool plausible(const FitReport& report) const;
   void adopt(const PoseBelief& belief, const BodyState& body);
@@ -86,6 +88,8 @@ class Localization {
   double moveHeadingSigma_ = 0.3;  // rad
   double lastCorrection_ = kNever;
   Vector3 tiltCorrection_ = Vector3::Zero();
+  std::optional<Pose2> expectedPlace_;
+  double expectedSince_ = kNever;
   int challenges_ = 0;  // vision frames in a row in which the particle filter knew better
 };
 

@@ -1,0 +1,61 @@
+// How well the world stage knows where the robot is: its belief against the ground truth that a server can be
+// told to send (mypos, myorien), over every vision message that holds it, none left out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "nonet/world/world_state.h"
+
+namespace nonet::lab {
+
+class LocalizationReport {
+ public:
+  struct ErrorQuantiles {
+    double median = 0.0;
+    double p95 = 0.0;
+    double mean = 0.0;
+    double largest = 0.0;
+  };
+  struct Summary {
+    std::size_t frames = 0;            // vision messages with truth
+    ErrorQuantiles position;           // m, of the camera in the plane
+    ErrorQuantiles height;             // m, of the camera
+    ErrorQuantiles heading;            // rad, of the camera
+    double coverage95 = 0.0;           // share of frames with the truth inside the stated 95 % ellipse
+    double localizedShare = 0.0;       // share of frames in which the robot says that it knows its place
+    ErrorQuantiles localizedPosition;  // m, over those frames alone
+  };
+
+  /// After each world update; messages without vision or truth are passed over. The printed truth is rounded
+  /// to 0.01 m: that variance is added to the stated one before the test of coverage.
+  void add(const protocol::Percept& percept, const world::WorldState& world);
+
+  /// With exact truth: camera position in the own field frame (m) and heading of the camera (rad).
+  void add(const world::WorldState& world, const Vector3& p_FC, double heading);
+
+  Summary summary() const;
+  /// {"frames", "position_error_m": {"median", "p95", "mean", "max"}, "height_error_m", "heading_error_deg",
+  /// "coverage95", "localized_share"}
+  nlohmann::ordered_json toJson() const;
+  std::string toText() const;
+  /// Map of the field with the track (blue) and the truth (red).
+  std::string toSvg() const;
+
+ private:
+  struct Frame {
+    Vector3 believed;  // p_FC, m
+    Vector3 truth;     // m
+    double headingError = 0.0;
+    double distance = 0.0;  // squared Mahalanobis distance in the plane
+    bool localized = false;
+  };
+  void record(const world::WorldState& world, const Vector3& p_FC, double heading, double truthVariance);
+
+  std::vector<Frame> frames_;
+  world::FieldGeometry field_;
+};
+
+}  // namespace nonet::lab
