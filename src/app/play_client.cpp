@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <span>
 
 #include <asio.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "nonet/app/turn.h"
 #include "nonet/lab/agent_setup.h"
@@ -34,9 +36,10 @@ constexpr double kSilenceBeforeReconnect = 4.0;  // s, doubled each time
 constexpr double kTurnInterval = 0.02;        // s between two looks
 constexpr double kTurnPatience = 6.0;         // s
 constexpr double kTurnPatiencePerUnum = 0.4;  // s
-constexpr double kFirstPause = 0.1;           // s between two attempts to connect, grows by half each time
-constexpr double kLongestPause = 2.0;         // s
-constexpr std::size_t kReadSize = 65536;      // bytes
+constexpr double kTurnAfterInit = 0.5;    // s; a server that collects whole teams first accepts nobody before
+constexpr double kFirstPause = 0.1;       // s between two attempts to connect, grows by half each time
+constexpr double kLongestPause = 2.0;     // s
+constexpr std::size_t kReadSize = 65536;  // bytes
 
 class PlayClient {
  public:
@@ -81,7 +84,7 @@ class PlayClient {
 
   void awaitTurn() {
     const double patience = kTurnPatience + kTurnPatiencePerUnum * options_.session.agent.unum;
-    if (turn_.take() || Seconds(Clock::now() - started_).count() > patience) {
+    if (options_.atOnce || turn_.take() || Seconds(Clock::now() - started_).count() > patience) {
       started_ = Clock::now();  // waiting for the others does not count as waiting for the server
       connect();
     } else {
@@ -130,7 +133,7 @@ class PlayClient {
   }
 
   void watchSilence() {
-    if (!options_.session.sync) return;
+    if (!options_.rescue) return;
     greeted_ = Clock::now();
     after(silenceTimer_, kSilenceBeforeSyn, [this] { breakSilence(); });
   }
@@ -197,7 +200,10 @@ class PlayClient {
   }
 
   void receive(std::string_view message) {
-    silenceTimer_.cancel();
+    if (session_.counts().messages == 0) {
+      silenceTimer_.cancel();
+      after(pauseTimer_, kTurnAfterInit, [this] { turn_.release(); });
+    }
     if (log_) log_->received(message);
     session_.receive(message);
     watchStage();
@@ -267,10 +273,16 @@ class PlayClient {
 
   void report() {
     const lab::SessionCounts& counts = session_.counts();
-    if (counts.messages == 0) return;
-    say("{} messages, {} answered, {} passed over for a newer one, {} cycles without a message, {} unknown "
-        "tokens",
-        counts.messages, counts.answers, counts.passedOver, counts.lostCycles, counts.unknownTokens);
+    if (counts.messages > 0) {
+      say("{} messages, {} answered, {} passed over for a newer one, {} cycles without a message, {} unknown "
+          "tokens",
+          counts.messages, counts.answers, counts.passedOver, counts.lostCycles, counts.unknownTokens);
+    }
+    if (options_.report.empty()) return;
+    const nlohmann::json json = {{"exit", static_cast<int>(exit_)},  {"messages", counts.messages},
+                                 {"answers", counts.answers},        {"passed_over", counts.passedOver},
+                                 {"lost_cycles", counts.lostCycles}, {"unknown", counts.unknownTokens}};
+    std::ofstream(options_.report) << json.dump() << "\n";
   }
 
   template <class... Arguments>

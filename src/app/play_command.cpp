@@ -22,8 +22,10 @@ int runPlay(PlayArguments& arguments) {
   }
   PlayOptions& play = arguments.play;
   play.session.agent = lab::makeAgentConfig(arguments.choice, dataFolder());
-  // A server in real time ignores (syn), so there is nothing to find out: auto means on.
+  // A server in real time ignores (syn), so there is nothing to find out: auto means on, and takes care of
+  // servers that hang before the first message.
   play.session.sync = arguments.sync != "off";
+  play.rescue = arguments.sync == "auto";
   play.recordHeader = lab::logHeader(play.session.agent, NONET_VERSION);
   return static_cast<int>(nonet::app::play(play));
 }
@@ -49,7 +51,8 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--record", play.record, "Write a log for `nonet replay` (compressed with zstd)");
   command
       ->add_option("--sync", arguments->sync,
-                   "End answers with (syn), for lock-step servers: auto and on do, off does not")
+                   "End answers with (syn), for lock-step servers: on does, off does not; auto does, and "
+                   "frees servers that hang before their first message")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_option("--params", choice.parameterFiles, "Parameter files, overlaid in this order")
@@ -60,6 +63,9 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
       ->delimiter(',')
       ->expected(2);
   command->add_option("--challenge", arguments->challenge, "Name of a technical challenge");
+  command->add_option("--report", play.report, "Write what was counted as JSON at the end");
+  command->add_flag("--at-once", play.atOnce,
+                    "Connect without waiting for other agents of this machine to introduce themselves");
   command->add_flag("--quiet", play.quiet, "Say only what went wrong");
   command->footer(
       "Exit codes: 0 stopped by a signal, 1 error, 2 no server, 3 the server is gone, 4 refused by the "

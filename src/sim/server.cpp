@@ -274,7 +274,9 @@ void Server::Implementation::cycle() {
   if (cycles % 2 == 0) sendMonitorMessages();
   if (log) log->cycle();
   if (callback) callback(simulation);
-  if (options.endWithMatch && matchIsOver()) stopping = true;
+  if (!options.endWithMatch || !matchIsOver()) return;
+  if (options.lockStep) waitForAnswers();  // nobody's last message is cut off by the end of the connection
+  stopping = true;
 }
 
 void Server::Implementation::pace() {

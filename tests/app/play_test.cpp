@@ -120,6 +120,7 @@ TEST(Play, SendsNoSynIfToldSo) {
   FakeServer server;
   PlayOptions options = optionsFor(server);
   options.session.sync = false;
+  options.rescue = false;
   Player player(options);
   server.accept();
   EXPECT_EQ(server.receive(), "(scene rsg/agent/nao/nao_hetero.rsg 2)");

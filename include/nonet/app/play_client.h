@@ -24,8 +24,11 @@ struct PlayOptions {
   lab::SessionOptions session;
   std::string record;  // log file; empty: none
   protocol::LogHeader recordHeader;
-  double wait = 30.0;  // s until a server must have answered
-  bool quiet = false;  // only errors
+  std::string report;   // JSON of what was counted, written at the end; empty: none
+  bool rescue = true;   // before the first message, free a lock-step server that hangs
+  bool atOnce = false;  // introduce oneself without waiting for other agents of this machine
+  double wait = 30.0;   // s until a server must have answered
+  bool quiet = false;   // only errors
 };
 
 /// Plays until the server goes, refuses, or a signal comes. Says what happens on standard output, errors on

@@ -1,0 +1,33 @@
+// A terminal with one line at the bottom that changes (progress) and lines above it that stay.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+namespace nonet::app {
+
+class Console {
+ public:
+  Console();
+
+  /// Shows `line` in place of the last progress. At most four times a second on a terminal; elsewhere (a
+  /// file, CI) every ten seconds as a line of its own.
+  void progress(const std::string& line);
+  /// Whether progress() would show something now.
+  bool due() const;
+  /// A line that stays. From any thread.
+  void say(const std::string& line);
+  /// Lets the last progress stay.
+  void end();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool terminal_ = false;
+  bool shown_ = false;
+  Clock::time_point next_;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace nonet::app

@@ -1,0 +1,104 @@
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "nonet/app/commands.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/app/tcp_match.h"
+
+namespace nonet::app {
+namespace {
+
+struct MatchArguments {
+  TcpMatchOptions options;
+  int players = 9;
+  int threads = 1;
+  bool inProcess = false;
+  std::string json = "logs/match.json";
+  std::vector<std::string> settingFiles;
+  std::vector<std::string> assignments;
+};
+
+lab::MatchResult playHere(const MatchArguments& arguments, Console& console) {
+  const lab::MatchChoice& match = arguments.options.match;
+  console.say(fmt::format("{} against {}, {} a side, seed {}, in one process with {} threads",
+                          match.left.name, match.right.name, match.left.players, match.seed,
+                          arguments.threads));
+  const auto show = [&console](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
+    if (console.due()) console.progress(watcher.progress(simulation));
+    return true;
+  };
+  lab::MatchResult result = lab::playInProcess(match, dataFolder(), arguments.threads, show);
+  console.end();
+  return result;
+}
+
+int runMatch(MatchArguments& arguments) {
+  lab::MatchChoice& match = arguments.options.match;
+  match.left.players = match.right.players = arguments.players;
+  for (const std::string& file : arguments.settingFiles) match.settings.overlayFile(file);
+  for (const std::string& assignment : arguments.assignments) match.settings.setAssignment(assignment);
+  if (match.left.name == match.right.name)
+    throw std::runtime_error("--left and --right must be different names");
+
+  Console console;
+  const lab::MatchResult result =
+      arguments.inProcess ? playHere(arguments, console) : playOverTcp(arguments.options, console);
+  fmt::print("{}", result.toText());
+  const std::filesystem::path folder = std::filesystem::path(arguments.json).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  std::ofstream file(arguments.json);
+  file << result.toJson().dump(2) << "\n";
+  if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
+  fmt::print("result in {}\n", arguments.json);
+  return result.finished ? 0 : 1;
+}
+
+}  // namespace
+
+void addMatchCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("match", "Two teams of our agents play on the embedded server");
+  auto arguments = std::make_shared<MatchArguments>();
+  TcpMatchOptions& options = arguments->options;
+  lab::MatchChoice& match = options.match;
+  command->add_option("--minutes", match.minutes, "Game time in all, two halves")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1e4));
+  command->add_option("--seed", match.seed, "Seed of the server and of all agents")->capture_default_str();
+  command->add_flag("--realtime", options.realTime, "Play by the clock instead of in lock-step");
+  command->add_option("--players", arguments->players, "Players a side")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 11));
+  command->add_option("--left", match.left.name, "Name of the left team")->capture_default_str();
+  command->add_option("--right", match.right.name, "Name of the right team")->capture_default_str();
+  command->add_option("--left-params", match.left.parameterFiles, "Parameter files of the left team")
+      ->check(CLI::ExistingFile);
+  command->add_option("--right-params", match.right.parameterFiles, "Parameter files of the right team")
+      ->check(CLI::ExistingFile);
+  command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
+  command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
+  command->add_option("--monitor-log", options.monitorLog, "Record the monitor stream, for RoboViz");
+  command->add_option("--port", options.port, "Port for agents, 0: any free one")->capture_default_str();
+  command->add_option("--monitor-port", options.monitorPort, "Port for monitors, 0: any free one")
+      ->capture_default_str();
+  command
+      ->add_option("--answer-timeout", options.answerTimeout,
+                   "Lock-step: seconds after which a silent agent is no longer waited for")
+      ->capture_default_str();
+  command->add_option("--settings", arguments->settingFiles, "Files with settings of the server")
+      ->check(CLI::ExistingFile);
+  command->add_option("--set", arguments->assignments, "Settings of the server, Name=Value");
+  command->add_flag("--in-process", arguments->inProcess,
+                    "Agents and world in this process, without text and sockets");
+  command->add_option("--threads", arguments->threads, "With --in-process: threads for agents and physics")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command->footer(
+      "In lock-step the same seed gives the same match, over TCP and in one process, to the last byte of the "
+      "logs.\n"
+      "Exit codes: 0 played to the end, 1 not.");
+  command->callback([arguments, &exitCode] { exitCode = runMatch(*arguments); });
+}
+
+}  // namespace nonet::app

@@ -1,0 +1,246 @@
+#include "nonet/app/tcp_match.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "nonet/app/agent_processes.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/app/play_client.h"
+#include "nonet/sim/server.h"
+
+namespace nonet::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFarewell = 5.0;  // s for the agents to end after the server has closed
+
+/// What the server says goes above the progress line; before the match only warnings.
+class ConsoleSink : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit ConsoleSink(Console& console) : console_(console) {}
+  void quiet(bool quiet) { quiet_ = quiet; }
+
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    if (quiet_ && message.level < spdlog::level::warn) return;
+    console_.say(std::string(message.payload.data(), message.payload.size()));
+  }
+  void flush_() override {}
+
+ private:
+  Console& console_;
+  std::atomic<bool> quiet_{true};
+};
+
+/// The default logger replaced for as long as this lives.
+class LoggerGuard {
+ public:
+  explicit LoggerGuard(std::shared_ptr<spdlog::sinks::sink> sink) : before_(spdlog::default_logger()) {
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("match", std::move(sink)));
+  }
+  ~LoggerGuard() { spdlog::set_default_logger(before_); }
+  LoggerGuard(const LoggerGuard&) = delete;
+  LoggerGuard& operator=(const LoggerGuard&) = delete;
+
+ private:
+  std::shared_ptr<spdlog::logger> before_;
+};
+
+/// A folder for the agents' reports, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("nonet-match-{}", ::getpid())) {
+    fs::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+class TcpMatch {
+ public:
+  TcpMatch(const TcpMatchOptions& options, Console& console)
+      : options_(options),
+        console_(console),
+        watcher_(options.match),
+        sink_(std::make_shared<ConsoleSink>(console)),
+        logger_(sink_),
+        server_(lab::matchSettings(options.match), options.match.seed, serverOptions()) {}
+
+  lab::MatchResult run() {
+    if (!options_.logs.empty()) fs::create_directories(options_.logs);
+    console_.say(fmt::format("{} against {}, {} a side, seed {}, {}; agents on port {}, monitors on port {}",
+                             options_.match.left.name, options_.match.right.name, options_.match.left.players,
+                             options_.match.seed, options_.realTime ? "real time" : "lock-step",
+                             server_.agentPort(), server_.monitorPort()));
+    startAgents();
+    server_.onCycle([this](const sim::Simulation& simulation) { afterCycle(simulation); });
+    std::thread guard([this] { watchProcesses(); });
+    server_.run();
+    over_ = true;
+    guard.join();
+    const double wallTime = std::chrono::duration<double>(Clock::now() - started_).count();
+    console_.end();
+    processes_.stop(kFarewell);
+    if (watcher_.result().cycles == 0) throw std::runtime_error("the match did not begin" + reasons());
+    return collect(wallTime);
+  }
+
+ private:
+  sim::ServerOptions serverOptions() const {
+    sim::ServerOptions server;
+    server.address = "127.0.0.1";
+    server.agentPort = options_.port;
+    server.monitorPort = options_.monitorPort;
+    server.lockStep = !options_.realTime;
+    server.realTime = options_.realTime;
+    server.answerTimeout = options_.answerTimeout;
+    server.players = options_.match.left.players + options_.match.right.players;
+    server.monitorLog = options_.monitorLog;
+    server.endWithMatch = true;
+    server.handleSignals = true;
+    return server;
+  }
+
+  static std::string nameOf(const lab::PlayerRecord& player) {
+    return fmt::format("{}_{}", player.team, player.unum);
+  }
+
+  void startAgents() {
+    for (const lab::PlayerRecord& player : watcher_.result().players) {
+      const lab::AgentChoice agent = lab::agentChoice(options_.match, player.rightTeam, player.unum);
+      std::vector<std::string> command = {executablePath(), "play", "--host", "127.0.0.1",
+                                          // Nothing but the messages may decide what an agent sends.
+                                          "--sync", "on", "--at-once"};
+      const auto add = [&](const std::string& option, const std::string& value) {
+        command.push_back(option);
+        command.push_back(value);
+      };
+      add("--port", std::to_string(server_.agentPort()));
+      add("--unum", std::to_string(agent.unum));
+      add("--team", agent.team);
+      add("--type", std::to_string(agent.robotType));
+      add("--seed", std::to_string(agent.seed));
+      add("--report", folder_.file(nameOf(player) + ".json"));
+      for (const std::string& file : agent.parameterFiles) add("--params", file);
+      if (!options_.logs.empty())
+        add("--record", (fs::path(options_.logs) / (nameOf(player) + ".zst")).string());
+      processes_.start(command, folder_.file(nameOf(player) + ".txt"));
+    }
+  }
+
+  void afterCycle(const sim::Simulation& simulation) {
+    if (watcher_.result().cycles == 0) {
+      begun_ = true;
+      started_ = Clock::now();
+      sink_->quiet(false);
+    }
+    watcher_.update(simulation);
+    if (console_.due()) console_.progress(watcher_.progress(simulation));
+  }
+
+  /// In a thread of its own: tells of agents that end, and ends the match if it cannot begin or nobody is
+  /// left.
+  void watchProcesses() {
+    while (!over_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      processes_.poll();
+      std::size_t running = 0;
+      for (std::size_t i = 0; i < processes_.processes().size(); ++i) {
+        AgentProcesses::Process& process = processes_.processes()[i];
+        running += process.running ? 1 : 0;
+        if (process.running || process.told || over_) continue;
+        process.told = true;
+        if (endedBy(process) == "") continue;
+        early_[i] = endedBy(process);
+        console_.say(fmt::format("{} has ended: {}", nameOf(watcher_.result().players[i]), early_[i]));
+        if (!begun_) server_.stop();
+      }
+      if (running == 0) server_.stop();
+    }
+  }
+
+  /// Empty for an agent that ended because the server did.
+  static std::string endedBy(const AgentProcesses::Process& process) {
+    if (process.signal != 0)
+      return fmt::format("killed by signal {} ({})", process.signal, ::strsignal(process.signal));
+    if (process.exitCode == static_cast<int>(PlayExit::ServerGone)) return "";
+    std::string last;
+    std::ifstream output(process.output);
+    for (std::string line; std::getline(output, line);) {
+      if (!line.empty()) last = line;
+    }
+    return fmt::format("exit code {}: {}", process.exitCode, last);
+  }
+
+  std::string reasons() const {
+    std::string text;
+    for (const auto& [player, reason] : early_) {
+      text += fmt::format("\n  {}: {}", nameOf(watcher_.result().players[player]), reason);
+    }
+    return text;
+  }
+
+  lab::MatchResult collect(double wallTime) {
+    lab::MatchResult result = watcher_.finish(server_.simulation());
+    result.wallTime = wallTime;
+    const sim::Server::Statistics statistics = server_.statistics();
+    result.timeouts = statistics.timeouts;
+    result.droppedMessages = statistics.droppedMessages;
+    for (std::size_t i = 0; i < result.players.size(); ++i) {
+      lab::PlayerRecord& player = result.players[i];
+      const AgentProcesses::Process& process = processes_.processes()[i];
+      player.ending = endedBy(process);
+      if (player.ending.empty() && player.gone) player.ending = "lost its connection";
+      std::ifstream file(folder_.file(nameOf(player) + ".json"));
+      const auto report = nlohmann::json::parse(file, nullptr, false);
+      if (!report.is_object()) continue;
+      player.messages = report.value("messages", 0L);
+      player.passedOver = report.value("passed_over", 0L);
+      player.lostCycles = report.value("lost_cycles", 0L);
+    }
+    return result;
+  }
+
+  TcpMatchOptions options_;
+  Console& console_;
+  lab::MatchWatcher watcher_;
+  std::shared_ptr<ConsoleSink> sink_;
+  LoggerGuard logger_;
+  TemporaryFolder folder_;
+  sim::Server server_;
+  AgentProcesses processes_;
+  std::map<std::size_t, std::string> early_;  // why agents ended before the match did, by index of the player
+  std::atomic<bool> begun_{false};
+  std::atomic<bool> over_{false};
+  Clock::time_point started_;
+};
+
+}  // namespace
+
+lab::MatchResult playOverTcp(const TcpMatchOptions& options, Console& console) {
+  return TcpMatch(options, console).run();
+}
+
+}  // namespace nonet::app

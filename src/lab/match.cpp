@@ -1,0 +1,177 @@
+#include "nonet/lab/match.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "nonet/lab/work_crew.h"
+#include "nonet/protocol/play_mode.h"
+#include "nonet/sim/server_lobby.h"
+
+namespace nonet::lab {
+namespace {
+
+// Cosine of the torso's tilt. Between the two a robot keeps the stance it had, so a stumble counts once.
+constexpr float kFallenBelow = 0.5F;
+constexpr float kStandingAbove = 0.9F;
+constexpr int kLinger = 50;  // cycles after GameOver, as many as the server plays on
+
+bool running(protocol::PlayMode mode) {
+  return mode != protocol::PlayMode::BeforeKickOff && mode != protocol::PlayMode::GameOver;
+}
+
+struct InProcessPlayer {
+  sim::AgentHandle handle = sim::kNoAgent;
+  std::unique_ptr<agent::Agent> agent;
+  protocol::Effectors answer;
+  bool answered = false;
+  long messages = 0;
+};
+
+// The handshake that a server with a lobby plays, so that a match is the same as over TCP to the last bit.
+void enter(std::vector<InProcessPlayer>& players, sim::Simulation& simulation, std::uint64_t seed) {
+  std::vector<protocol::Effectors::Init> inits;
+  for (InProcessPlayer& player : players) {
+    sim::Lobby lobby(simulation.settings(), seed);
+    const protocol::Percept* percept = lobby.receive(player.agent->hello());
+    while (percept != nullptr && !lobby.ready()) percept = lobby.receive(player.agent->step(*percept));
+    inits.push_back(lobby.init().value());
+  }
+  for (const std::size_t i : sim::entryOrder(simulation.settings(), inits)) {
+    players[i].handle = simulation.enter(*players[i].agent->hello().scene, inits[i]);
+  }
+}
+
+}  // namespace
+
+sim::Settings matchSettings(const MatchChoice& choice) {
+  sim::Settings settings = choice.settings;
+  settings.ruleHalfTime = choice.minutes * 60.0 / 2.0;
+  settings.automaticKickOff = true;
+  settings.waitBeforeKickOff = choice.kickOffWait;
+  settings.leftTeam = choice.left.name;
+  settings.rightTeam = choice.right.name;
+  return settings;
+}
+
+AgentChoice agentChoice(const MatchChoice& choice, bool rightTeam, int unum) {
+  const TeamChoice& team = rightTeam ? choice.right : choice.left;
+  AgentChoice agent;
+  agent.unum = unum;
+  agent.team = team.name;
+  agent.robotType = usualRobotType(unum);
+  agent.seed = agentSeed(choice.seed, rightTeam, unum);
+  agent.parameterFiles = team.parameterFiles;
+  return agent;
+}
+
+MatchWatcher::MatchWatcher(const MatchChoice& choice) {
+  result_.teamLeft = choice.left.name;
+  result_.teamRight = choice.right.name;
+  result_.seed = choice.seed;
+  for (const bool rightTeam : {false, true}) {
+    const TeamChoice& team = rightTeam ? choice.right : choice.left;
+    for (int unum = 1; unum <= team.players; ++unum) {
+      PlayerRecord player;
+      player.rightTeam = rightTeam;
+      player.team = team.name;
+      player.unum = unum;
+      player.robotType = usualRobotType(unum);
+      result_.players.push_back(player);
+    }
+  }
+  stances_.assign(result_.players.size(), Stance::Unknown);
+}
+
+PlayerRecord* MatchWatcher::find(bool rightTeam, int unum) {
+  for (PlayerRecord& player : result_.players) {
+    if (player.rightTeam == rightTeam && player.unum == unum) return &player;
+  }
+  return nullptr;
+}
+
+void MatchWatcher::update(const sim::Simulation& simulation) {
+  const sim::MatchState& match = simulation.match();
+  ++result_.cycles;
+  result_.scoreLeft = match.scoreLeft;
+  result_.scoreRight = match.scoreRight;
+  result_.gameTime = match.time;
+  result_.finished = match.playMode == protocol::PlayMode::GameOver;
+  if (!firstKickOff_ && running(match.playMode)) firstKickOff_ = match.serverTime;
+
+  for (PlayerRecord& player : result_.players) player.gone = player.connected;
+  for (const sim::AgentInfo& agent : simulation.agents()) {
+    if (agent.unum == 0) continue;
+    // Names stay with the team if the sides are changed at half time.
+    PlayerRecord* player = find(agent.team.view() == result_.teamRight, agent.unum);
+    if (player == nullptr) continue;
+    player->connected = true;
+    player->gone = false;
+    const float up = simulation.world().bodyPose(agent.robot, model::BodyId::Torso).rotation(2, 2);
+    Stance& stance = stances_[static_cast<std::size_t>(player - result_.players.data())];
+    if (up < kFallenBelow && stance == Stance::Standing) ++player->falls;
+    if (up < kFallenBelow) stance = Stance::Fallen;
+    if (up > kStandingAbove) stance = Stance::Standing;
+    if (firstKickOff_ && player->falls == 0 && result_.finished == false) {
+      player->standingAfterKickOff = match.serverTime - *firstKickOff_;
+    }
+  }
+}
+
+MatchResult MatchWatcher::finish(const sim::Simulation& simulation) {
+  result_.signature = simulation.signature();
+  return result_;
+}
+
+std::string MatchWatcher::progress(const sim::Simulation& simulation) const {
+  const sim::MatchState& match = simulation.match();
+  const sim::Vector3f ball = simulation.world().ballPosition();
+  const int seconds = static_cast<int>(match.time);
+  return fmt::format("{:02}:{:02} {} {} : {} {}  {:<16} ball {:6.2f} {:6.2f}  falls {} : {}", seconds / 60,
+                     seconds % 60, result_.teamLeft, match.scoreLeft, match.scoreRight, result_.teamRight,
+                     protocol::playModeName(match.playMode), ball.x(), ball.y(), result_.falls(false),
+                     result_.falls(true));
+}
+
+MatchResult playInProcess(
+    const MatchChoice& choice, const std::string& dataFolder, int threads,
+    const std::function<bool(const sim::Simulation&, const MatchWatcher&)>& afterCycle) {
+  sim::Settings settings = matchSettings(choice);
+  settings.threads = threads;
+  sim::Simulation simulation(settings, choice.seed);
+  MatchWatcher watcher(choice);
+  std::vector<InProcessPlayer> players;
+  for (const PlayerRecord& record : watcher.result().players) {
+    const AgentChoice agent = agentChoice(choice, record.rightTeam, record.unum);
+    players.emplace_back().agent = std::make_unique<agent::Agent>(makeAgentConfig(agent, dataFolder));
+  }
+  enter(players, simulation, choice.seed);
+
+  WorkCrew crew(threads);
+  const std::function<void(int)> think = [&](int i) {
+    InProcessPlayer& player = players[static_cast<std::size_t>(i)];
+    const protocol::Percept* percept = simulation.sense(player.handle);
+    player.answered = percept != nullptr;
+    if (percept == nullptr) return;
+    ++player.messages;
+    player.answer = player.agent->step(*percept);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  int afterEnd = 0;
+  for (bool more = true; more;) {
+    crew.run(static_cast<int>(players.size()), think);
+    for (const InProcessPlayer& player : players) {
+      if (player.answered) simulation.act(player.handle, player.answer);
+    }
+    simulation.step();
+    watcher.update(simulation);
+    if (watcher.result().finished && ++afterEnd > kLinger) more = false;
+    if (afterCycle && !afterCycle(simulation, watcher)) more = false;
+  }
+  MatchResult result = watcher.finish(simulation);
+  for (std::size_t i = 0; i < players.size(); ++i) result.players[i].messages = players[i].messages;
+  result.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace nonet::lab

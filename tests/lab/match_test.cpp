@@ -1,0 +1,147 @@
+#include "nonet/lab/match.h"
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "nonet/lab/work_crew.h"
+
+namespace nonet::lab {
+namespace {
+
+MatchChoice shortMatch(std::uint64_t seed) {
+  MatchChoice choice;
+  choice.left.players = 2;
+  choice.right.players = 2;
+  choice.seed = seed;
+  choice.minutes = 2.0 / 60.0;  // two halves of one second
+  choice.kickOffWait = 0.5;
+  return choice;
+}
+
+TEST(WorkCrew, DoesEveryPieceOnce) {
+  for (const int threads : {1, 2, 4}) {
+    WorkCrew crew(threads);
+    for (const int count : {0, 1, 5, 100}) {
+      std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
+      crew.run(count, [&](int i) { ++done[static_cast<std::size_t>(i)]; });
+      for (const auto& times : done) EXPECT_EQ(times, 1);
+    }
+  }
+}
+
+TEST(WorkCrew, PassesExceptionsOn) {
+  WorkCrew crew(3);
+  EXPECT_THROW(crew.run(10,
+                        [](int i) {
+                          if (i == 7) throw std::runtime_error("seven");
+                        }),
+               std::runtime_error);
+  int sum = 0;
+  std::mutex mutex;
+  crew.run(4, [&](int i) {
+    const std::lock_guard lock(mutex);
+    sum += i;
+  });
+  EXPECT_EQ(sum, 6) << "it works on after an exception";
+}
+
+TEST(Match, SeedsOfAgentsDiffer) {
+  std::set<std::uint64_t> seeds;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    for (int unum = 1; unum <= 11; ++unum) {
+      seeds.insert(agentSeed(seed, false, unum));
+      seeds.insert(agentSeed(seed, true, unum));
+    }
+  }
+  EXPECT_EQ(seeds.size(), 44U);
+}
+
+// Server facts 1.4, written down a second time.
+TEST(Match, UsualTypesPassTheServersRules) {
+  std::map<int, int> count;
+  for (int unum = 1; unum <= 11; ++unum) {
+    const int type = usualRobotType(unum);
+    const int others = unum - 1;
+    EXPECT_LT(count[type], 7);
+    for (const auto& [other, number] : count) {
+      if (other != type) {
+        EXPECT_LE(count[type] + 1 + number, 9);
+      }
+    }
+    int kinds = 0;
+    for (const auto& [other, number] : count) kinds += number > 0 ? 1 : 0;
+    EXPECT_FALSE(11 - others <= 3 - kinds && count[type] > 0);
+    ++count[type];
+  }
+}
+
+TEST(Match, IsPlayedToTheEnd) {
+  const MatchResult result = playInProcess(shortMatch(1), NONET_SOURCE_DIR, 1);
+  EXPECT_TRUE(result.finished);
+  EXPECT_NEAR(result.gameTime, 2.0, 0.05);
+  ASSERT_EQ(result.players.size(), 4U);
+  for (const PlayerRecord& player : result.players) {
+    EXPECT_TRUE(player.connected);
+    EXPECT_FALSE(player.gone);
+  }
+  EXPECT_EQ(result.toJson()["players"].size(), 4U);
+  EXPECT_NE(result.toText().find("Guests"), std::string::npos);
+}
+
+TEST(Match, SameSeedSameMatchOnAnyNumberOfThreads) {
+  const MatchResult first = playInProcess(shortMatch(5), NONET_SOURCE_DIR, 1);
+  const MatchResult second = playInProcess(shortMatch(5), NONET_SOURCE_DIR, 2);
+  const MatchResult other = playInProcess(shortMatch(6), NONET_SOURCE_DIR, 1);
+  EXPECT_EQ(first.signature, second.signature);
+  EXPECT_EQ(first.cycles, second.cycles);
+  EXPECT_NE(first.signature, other.signature);
+}
+
+TEST(Match, CanBeStopped) {
+  int cycles = 0;
+  const MatchResult result =
+      playInProcess(shortMatch(1), NONET_SOURCE_DIR, 1,
+                    [&](const sim::Simulation&, const MatchWatcher&) { return ++cycles < 10; });
+  EXPECT_EQ(result.cycles, 10);
+  EXPECT_FALSE(result.finished);
+  EXPECT_FALSE(result.flawless());
+}
+
+// A robot that throws its legs forward falls, once, and is counted once however long it lies.
+TEST(MatchWatcher, CountsAFallOnce) {
+  MatchChoice choice = shortMatch(1);
+  choice.left.players = choice.right.players = 1;
+  choice.minutes = 1.0;
+  sim::Simulation simulation(matchSettings(choice), 1);
+  MatchWatcher watcher(choice);
+  protocol::Effectors::Scene scene;
+  protocol::Effectors::Init init;
+  init.unum = 1;
+  init.team.assign(choice.left.name);
+  const sim::AgentHandle faller = simulation.enter(scene, init);
+  init.team.assign(choice.right.name);
+  simulation.enter(scene, init);
+  for (int cycle = 0; cycle < 250; ++cycle) {
+    protocol::Effectors effectors;
+    if (cycle > 60) {
+      effectors.setSpeed(model::JointId::RLeg3, 3.0);
+      effectors.setSpeed(model::JointId::LLeg3, 3.0);
+    }
+    simulation.act(faller, effectors);
+    simulation.step();
+    watcher.update(simulation);
+  }
+  EXPECT_EQ(watcher.result().falls(false), 1);
+  EXPECT_EQ(watcher.result().falls(true), 0) << "the other one just stands";
+  EXPECT_LT(watcher.result().players[0].standingAfterKickOff,
+            watcher.result().players[1].standingAfterKickOff);
+  EXPECT_NE(watcher.progress(simulation).find("falls 1 : 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nonet::lab
