@@ -148,7 +148,11 @@ WorldModel::~WorldModel() = default;
 const WorldState& WorldModel::update(const protocol::Percept& percept) {
   Stages& stages = *stages_;
   WorldState& state = stages.state;
-  if (!stages.body.update(percept, state.body)) return state;
+  if (!stages.body.update(percept, state.body)) {
+    // A server that stands still sends the same time again; who we are may be new in it.
+    if (percept.time == state.time) stages.game.update(percept, state.game);
+    return state;
+  }
   state.time = percept.time;
   stages.game.update(percept, state.game);
   stages.followBeam();
