@@ -15,6 +15,7 @@ using Kind = CourseLeg::Kind;
 using motion::MotionRequest;
 
 constexpr double kFallCost = 5.0;
+constexpr double kFarthest = 100.0;         // m, nobody walks there
 constexpr double kReached = 0.15;           // m
 constexpr double kTurned = 0.1745;          // rad
 constexpr double kTurnWorth = 0.4;          // m per rad: a turn of half a circle counts as 1.26 m
@@ -177,6 +178,7 @@ class Walker {
       if (leg.noise > 0.0 && i % std::lround(kNoiseHold / kCycleTime) == 0)
         noise = leg.noise * Vector2(random_.normal(), random_.normal());
       trial_->step(request(leg, at, target + noise, start.rotation, heading));
+      if (exploded()) return giveUp();
       const Pose2 now = trial_->pose();
       drift += (now.translation - at.translation).norm();
       at = now;
@@ -236,6 +238,17 @@ class Walker {
     result_.falls += 1;
     result_.reward -= kFallCost;
     if (result_.falls < options_.mostFalls) stand(at);
+  }
+
+  // Absurd parameters can drive the solver to numbers that are none; ODE would end the process on the next
+  // collision check.
+  bool exploded() const {
+    const Vector3 torso = trial_->torsoPosition();
+    return !torso.allFinite() || torso.norm() > kFarthest;
+  }
+  void giveUp() {
+    result_.reward -= kFallCost * (options_.mostFalls - result_.falls);
+    result_.falls = options_.mostFalls;
   }
 
   const TrialSetup& setup_;

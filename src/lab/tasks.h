@@ -16,6 +16,6 @@ TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t se
 
 /// The course as a task.
 TaskResult courseTask(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings, const CourseOptions& options);
+                      const TaskSettings& settings, CourseOptions options);
 
 }  // namespace nonet::lab

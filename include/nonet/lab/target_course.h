@@ -49,7 +49,7 @@ struct CourseResult {
 
 struct CourseOptions {
   motion::WalkSet set = motion::WalkSet::Automatic;
-  int mostFalls = 1000;  // then the rest of the course is not walked (and earns nothing)
+  int mostFalls = 100;  // then the rest of the course is not walked (and earns nothing)
 };
 
 CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options);
