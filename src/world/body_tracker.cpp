@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kSleepRepeats = 5;           // identical messages until the robot counts as asleep
 constexpr double kFootErrorCycles = 10.0;  // the errors of the feet's velocity go together for so many cycles
+constexpr int kLongGap = 10;               // lost messages over which nothing is integrated
 constexpr double kHeightToSpeed = 2.0;     // 1/s, gain from an error of the height to the vertical velocity
 constexpr double kMinimumLoad = 2.0;       // N on a foot before its kinematics count
 
@@ -171,7 +172,8 @@ void BodyTracker::integrateOrientation(int cycles, BodyState& state) {
     }
     return;
   }
-  if (state.asleep) return;  // the frozen senses still show the last, tiny rate
+  // Asleep: the frozen senses still show the last, tiny rate. A long gap: nothing is known of it.
+  if (state.asleep || cycles > kLongGap) return;
   for (int i = 1; i <= cycles; ++i) {
     const double share = static_cast<double>(i) / cycles;
     const Vector3 rate = (1.0 - share) * previousGyro_ + share * state.gyro;
@@ -229,6 +231,13 @@ void BodyTracker::integrateVelocity(int cycles, const KinematicVelocity& kinemat
     covariance_(0, 1) = covariance_(1, 0) = 0.0;
     state.v_GR.setZero();
     settledPosition_ = state.p_GR;
+    return;
+  }
+  if (cycles > kLongGap) {
+    settledVelocity_.setZero();
+    state.v_GR.setZero();
+    settledPosition_ = state.p_GR;
+    covariance_ << 0.25, 0.0, 0.0, 0.01;
     return;
   }
   // ACC = R^T ((v - v_before)/dt - g), one cycle old (server facts 2.6).
