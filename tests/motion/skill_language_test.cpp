@@ -1,0 +1,203 @@
+#include "nonet/motion/skill_language.h"
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nonet/math/angle.h"
+#include "nonet/math/random.h"
+#include "nonet/motion/skill_library.h"
+
+namespace nonet::motion {
+namespace {
+
+using model::JointId;
+using testing::HasSubstr;
+
+Skill parseOne(const std::string& body) {
+  return parseSkills("skill test {\n" + body + "\n}\n", "test.skl").at(0);
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    parseSkills(text, "test.skl");
+  } catch (const SkillError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SkillLanguage, JointTargetsTakeUnitsAndSides) {
+  const Skill skill =
+      parseOne("move over 200ms { left.knee -30deg right.elbow 0.5rad both.hipRoll 10deg head.tilt 5deg }");
+  ASSERT_EQ(skill.program.size(), 2U);  // and the end
+  const Instruction& move = skill.program[0];
+  EXPECT_EQ(move.kind, Instruction::Kind::MoveOver);
+  EXPECT_DOUBLE_EQ(move.value, 0.2);
+  ASSERT_EQ(move.joints.size(), 5U);
+  EXPECT_EQ(move.joints[0].joint, JointId::LLeg4);
+  EXPECT_DOUBLE_EQ(move.joints[0].angle, toRadians(-30.0));
+  // Angles are those of the left side: the right elbow bends the other way.
+  EXPECT_EQ(move.joints[1].joint, JointId::RArm4);
+  EXPECT_DOUBLE_EQ(move.joints[1].angle, -0.5);
+  EXPECT_EQ(move.joints[2].joint, JointId::LLeg2);
+  EXPECT_DOUBLE_EQ(move.joints[2].angle, toRadians(10.0));
+  EXPECT_EQ(move.joints[3].joint, JointId::RLeg2);
+  EXPECT_DOUBLE_EQ(move.joints[3].angle, toRadians(-10.0));
+  // Tilt is positive downwards, the joint upwards.
+  EXPECT_EQ(move.joints[4].joint, JointId::Head2);
+  EXPECT_DOUBLE_EQ(move.joints[4].angle, toRadians(-5.0));
+}
+
+TEST(SkillLanguage, ExpressionsUseParametersAndPrecedence) {
+  const Skill skill = parseOne(
+      "parameter a = 10deg in 0deg..20deg\nparameter n = 3\n"
+      "move over 0.1s * n { left.knee -(a + 2deg) * n / 2 - a }");
+  ASSERT_EQ(skill.parameters.size(), 2U);
+  EXPECT_EQ(skill.parameters[0].unit, config::Unit::Radian);
+  ASSERT_TRUE(skill.parameters[0].range.has_value());
+  EXPECT_FALSE(skill.parameters[1].range.has_value());
+  EXPECT_NEAR(skill.program[0].value, 0.3, 1e-12);
+  EXPECT_NEAR(skill.program[0].joints[0].angle, toRadians(-12.0 * 3.0 / 2.0 - 10.0), 1e-12);
+}
+
+TEST(SkillLanguage, ParametersAreReplaced) {
+  const std::string text = "skill test { parameter t = 1s in 0.5s..2s wait t }";
+  const auto lookup = [](std::string_view skill, std::string_view parameter) -> std::optional<double> {
+    EXPECT_EQ(skill, "test");
+    EXPECT_EQ(parameter, "t");
+    return 1.5;
+  };
+  EXPECT_DOUBLE_EQ(parseSkills(text, "f", lookup)[0].program[0].value, 1.5);
+}
+
+TEST(SkillLanguage, BranchesAndLoopsJumpToTheRightPlace) {
+  const Skill skill = parseOne("if upright { wait 1s } else { fail }\nrepeat 3 { wait 2s }");
+  using Kind = Instruction::Kind;
+  const std::vector<Kind> expected{Kind::Branch, Kind::Wait, Kind::Jump, Kind::Fail,
+                                   Kind::Wait,   Kind::Loop, Kind::End};
+  ASSERT_EQ(skill.program.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(skill.program[i].kind, expected[i]) << i;
+  EXPECT_EQ(skill.program[0].target, 3);  // the else part
+  EXPECT_EQ(skill.program[2].target, 4);  // past it
+  EXPECT_EQ(skill.program[5].target, 4);
+  EXPECT_EQ(skill.program[5].count, 3);
+}
+
+TEST(SkillLanguage, ConditionsBindAndBeforeOr) {
+  const Skill skill = parseOne("wait until upright or fallen front and not contact left within 1s");
+  const ConditionNode& root = skill.conditions[static_cast<std::size_t>(skill.program[0].condition)];
+  EXPECT_EQ(root.kind, ConditionNode::Kind::Or);
+  EXPECT_EQ(skill.conditions[static_cast<std::size_t>(root.first)].kind, ConditionNode::Kind::Upright);
+  EXPECT_EQ(skill.conditions[static_cast<std::size_t>(root.second)].kind, ConditionNode::Kind::And);
+}
+
+TEST(SkillLanguage, ErrorsNameFileLineAndColumn) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"skill a {\n  mov over 1s {}\n}", "test.skl:2:3: 'mov' is no statement"},
+      {"skill a {\n  move over 1s { left.kne 1deg }\n}", "test.skl:2:23: unknown joint 'kne'"},
+      {"skill a { wait 10deg }", "test.skl:1:16: a value in s is needed"},
+      {"skill a { wait 10kg }", "test.skl:1:16: unknown unit 'kg'"},
+      {"skill a { wait 0s }", "test.skl:1:16: must be more than zero"},
+      {"skill a { move over 1s { left.knee x } }", "unknown parameter 'x'"},
+      {"skill a { parameter x = 5 in 6..7 }", "test.skl:1:21: the default lies outside"},
+      {"skill a { parameter x = 5 parameter x = 5 }", "exists already"},
+      {"skill a { wait 1s", "'}' is missing"},
+      {"skill a { if happy { } }", "'happy' is no condition"},
+      {"skill a { repeat 0 { } }", "whole number"},
+      {"skill a { wait 1s ; }", "this character means nothing"},
+      {"skill a { stiffness 2 }", "between 0 and 1"},
+      {"skill a { move over 1s + 1deg { } }", "units of a sum differ"},
+      {"skill a { curve left foot over 1s { } }", "at least one point"},
+      {"skil a { }", "expected 'skill'"},
+  };
+  for (const auto& [text, message] : cases) EXPECT_THAT(errorOf(text), HasSubstr(message)) << text;
+}
+
+TEST(SkillLanguage, LibraryResolvesCallsAndFindsCircles) {
+  const auto library = [](const std::string& text) { return SkillLibrary(parseSkills(text, "l.skl")); };
+  const SkillLibrary good = library("skill a { call b mirrored }\nskill b { wait 1s }");
+  EXPECT_EQ(good.skill(good.find("a")).program[0].callee, good.find("b"));
+  EXPECT_TRUE(good.skill(good.find("a")).program[0].mirrored);
+  EXPECT_EQ(good.find("c"), -1);
+  EXPECT_THROW(library("skill a { call nobody }"), SkillError);
+  EXPECT_THROW(library("skill a { call b } skill b { call a }"), SkillError);
+  EXPECT_THROW(library("skill a { } skill a { }"), SkillError);
+}
+
+TEST(SkillFormat, NormalisesAndKeepsCommentsAndMeaning) {
+  const std::string text =
+      "# head\n\n\nskill   a{   # why\nparameter p=-5deg in -10deg .. 0deg\n"
+      "move over 1s{left.knee   -30deg right.knee p-2deg}\n  # alone\n if  time<1s{\nwait 1s }\n}\n";
+  const std::string expected =
+      "# head\n\nskill a {  # why\n  parameter p = -5deg in -10deg..0deg\n"
+      "  move over 1s { left.knee -30deg right.knee p - 2deg }\n  # alone\n  if time < 1s {\n    wait 1s "
+      "}\n}\n";
+  // "p-2deg" keeps its meaning: p minus 2 degrees.
+  const std::string formatted = formatSkills(text, "f");
+  EXPECT_EQ(formatted, expected);
+  EXPECT_EQ(formatSkills(formatted, "f"), formatted);
+}
+
+// The formatter may change blanks only: the words stay the same, for every shipped skill and for random cuts
+// of blanks.
+TEST(SkillFormat, ShippedSkillsLoadAndAreFormatted) {
+  const std::string folder = std::string(NONET_SOURCE_DIR) + "/skills";
+  const SkillLibrary library(folder, declareSkillParameters(folder));
+  EXPECT_GT(library.size(), 0U);
+  for (const std::string& path : skillFiles(folder)) {
+    std::ifstream file(path);
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    EXPECT_EQ(formatSkills(text, path), text) << path << ": run `nonet skill format`";
+  }
+}
+
+// Random mutations of a good text: an error or a skill, never a crash (run under the sanitizers too).
+TEST(SkillLanguage, SurvivesGarbage) {
+  const std::string good =
+      "skill a { parameter x = 5deg in 0deg..9deg move at 2rad/s { both.knee -(x + 1deg) * 2 } if not "
+      "upright "
+      "and time > 1s { call a } else { curve left foot over 1s from ball { point (0, 1m, -2mm) rpy (0, 1deg, "
+      "0) } } }";
+  Random random(7);
+  int parsed = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = good;
+    for (std::uint64_t k = 1 + random.below(4); k > 0; --k) {
+      const std::size_t at = random.below(text.size());
+      switch (random.below(3)) {
+        case 0:
+          text.erase(at, 1 + random.below(8));
+          break;
+        case 1:
+          text.insert(at, 1, static_cast<char>(random.below(256)));
+          break;
+        default:
+          text.insert(at, text.substr(random.below(text.size()), random.below(12)));
+          break;
+      }
+      if (text.empty()) text = "s";
+    }
+    try {
+      parseSkills(text, "garbage");
+      ++parsed;
+    } catch (const SkillError&) {
+    }
+  }
+  EXPECT_LT(parsed, 3000);
+}
+
+TEST(SkillParameters, AreDeclaredUnderTheirSkill) {
+  const std::string folder = std::string(NONET_SOURCE_DIR) + "/skills";
+  const SkillParameters parameters = declareSkillParameters(folder);
+  ASSERT_FALSE(parameters.values.empty());
+  const auto& name = parameters.names->front();
+  EXPECT_EQ(parameters.find(name.skill, name.parameter), parameters.values.front());
+  EXPECT_EQ(parameters.find(name.skill, "there is none"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace nonet::motion

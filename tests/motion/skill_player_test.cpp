@@ -1,0 +1,172 @@
+#include "nonet/motion/skill_player.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "nonet/model/kinematics.h"
+#include "nonet/motion/skill_language.h"
+
+namespace nonet::motion {
+namespace {
+
+using model::index;
+using model::JointId;
+using Result = SkillPlayer::Result;
+
+class Player : public testing::Test {
+ protected:
+  void load(const std::string& text, bool mirrored = false) {
+    library_ = SkillLibrary(parseSkills(text, "test.skl"));
+    player_ = std::make_unique<SkillPlayer>(model_, library_);
+    world_.body.cycleTime = kCycleTime;
+    targets_ = JointTargets{};
+    targets_.stiffness.fill(1.0);
+    ASSERT_TRUE(player_->start("a", mirrored, targets_.angles));
+  }
+  Result step() { return player_->update(world_, targets_); }
+  int cyclesToEnd(int most = 1000) {
+    int cycles = 1;
+    while (step() == Result::Running && cycles < most) ++cycles;
+    return cycles;
+  }
+  double angle(JointId joint) const { return targets_.angles[index(joint)]; }
+
+  const model::RobotModel& model_ = model::robotModel(0);
+  SkillLibrary library_;
+  std::unique_ptr<SkillPlayer> player_;
+  world::WorldState world_;
+  JointTargets targets_;
+};
+
+TEST_F(Player, MovesWithConstantSpeedAndArrives) {
+  load("skill a { move over 0.2s { left.knee -1rad } }");
+  for (int i = 1; i <= 10; ++i) {
+    EXPECT_EQ(step(), Result::Running);
+    EXPECT_NEAR(angle(JointId::LLeg4), -0.1 * i, 1e-12);
+  }
+  EXPECT_EQ(step(), Result::Finished);
+  EXPECT_NEAR(angle(JointId::LLeg4), -1.0, 1e-12);
+}
+
+TEST_F(Player, PartsOfACycleCarryOver) {
+  // Three moves of 30 ms end after 90 ms, not after three times two cycles.
+  load(
+      "skill a { move over 30ms { left.knee -0.3rad } move over 30ms { left.knee -0.6rad } "
+      "move over 30ms { left.knee -0.9rad } }");
+  step();
+  EXPECT_NEAR(angle(JointId::LLeg4), -0.2, 1e-12);
+  step();
+  EXPECT_NEAR(angle(JointId::LLeg4), -0.4, 1e-12);
+  step();
+  EXPECT_NEAR(angle(JointId::LLeg4), -0.6, 1e-12);
+  step();
+  EXPECT_NEAR(angle(JointId::LLeg4), -0.8, 1e-12);
+  EXPECT_EQ(step(), Result::Finished);
+  EXPECT_NEAR(angle(JointId::LLeg4), -0.9, 1e-12);
+}
+
+TEST_F(Player, SpeedIsThatOfTheLongestWay) {
+  load("skill a { move at 2rad/s { left.knee -1rad left.hipPitch 0.5rad } }");
+  for (int i = 0; i < 25; ++i) EXPECT_EQ(step(), Result::Running) << i;
+  EXPECT_NEAR(angle(JointId::LLeg4), -1.0, 1e-12);
+  EXPECT_NEAR(angle(JointId::LLeg3), 0.5, 1e-12);
+  EXPECT_EQ(step(), Result::Finished);
+}
+
+TEST_F(Player, MirroredExchangesSidesAndSigns) {
+  const std::string text =
+      "skill a { move over 20ms { left.knee -1rad left.hipRoll 0.3rad head.pan 0.5rad } }";
+  load(text, true);
+  step();
+  EXPECT_NEAR(angle(JointId::RLeg4), -1.0, 1e-12);
+  EXPECT_NEAR(angle(JointId::RLeg2), -0.3, 1e-12);
+  EXPECT_NEAR(angle(JointId::LLeg4), 0.0, 1e-12);
+  EXPECT_NEAR(angle(JointId::Head1), -0.5, 1e-12);
+}
+
+TEST_F(Player, MirroredCallInAMirroredSkillIsPlain) {
+  load("skill a { call b mirrored } skill b { move over 20ms { left.knee -1rad } }", true);
+  step();
+  EXPECT_NEAR(angle(JointId::LLeg4), -1.0, 1e-12);
+  EXPECT_NEAR(angle(JointId::RLeg4), 0.0, 1e-12);
+}
+
+TEST_F(Player, WaitsForAConditionOrTheTime) {
+  load("skill a { wait until upright within 0.2s move over 20ms { left.knee -1rad } }");
+  world_.body.posture = world::Posture::FallenBack;
+  EXPECT_EQ(step(), Result::Running);
+  EXPECT_EQ(angle(JointId::LLeg4), 0.0);
+  world_.body.posture = world::Posture::Upright;
+  EXPECT_EQ(step(), Result::Running);
+  EXPECT_NEAR(angle(JointId::LLeg4), -1.0, 1e-12);
+  load("skill a { wait until upright within 0.2s }");
+  world_.body.posture = world::Posture::FallenBack;
+  EXPECT_EQ(cyclesToEnd(), 11);
+}
+
+TEST_F(Player, ConditionsSeeTheMirroredWorld) {
+  const std::string text = "skill a { if fallen left { end } fail }";
+  world_.body.posture = world::Posture::FallenLeft;
+  load(text);
+  EXPECT_EQ(step(), Result::Finished);
+  load(text, true);
+  EXPECT_EQ(step(), Result::Failed);
+  world_.body.posture = world::Posture::FallenRight;
+  load(text, true);
+  EXPECT_EQ(step(), Result::Finished);
+}
+
+TEST_F(Player, RepeatsAsOftenAsAsked) {
+  load("skill a { repeat 3 { repeat 2 { wait 20ms } } }");
+  EXPECT_EQ(cyclesToEnd(), 7);
+}
+
+TEST_F(Player, EndlessCirclesWithoutTimeFail) {
+  // A loop of a thousand rounds of a thousand that takes no time must not stop the robot.
+  load("skill a { repeat 1000 { repeat 1000 { stiffness 1 } } }");
+  EXPECT_EQ(step(), Result::Failed);
+  EXPECT_FALSE(player_->running());
+}
+
+TEST_F(Player, FeetGoStraightToTheirPose) {
+  load("skill a { move over 0.1s { foot left at (20mm, 60mm, -0.33m) foot right at (0, -55mm, -0.35m) } }");
+  for (int i = 0; i < 5; ++i) step();
+  model::BodyPoses bodies;
+  model::forwardKinematics(model_, targets_.angles, bodies);
+  const Pose3 left = model::solePose(model_, bodies, model::Side::Left);
+  EXPECT_LT((left.translation() - Vector3(0.02, 0.06, -0.33)).norm(), 1e-9);
+  EXPECT_TRUE(left.linear().isIdentity(1e-9));
+  const Pose3 right = model::solePose(model_, bodies, model::Side::Right);
+  EXPECT_LT((right.translation() - Vector3(0.0, -0.055, -0.35)).norm(), 1e-9);
+}
+
+TEST_F(Player, CurvesPassThroughTheirPointsRelativeToTheBall) {
+  world_.body.torsoHeight = 0.35;
+  load(
+      "skill a { curve left foot over 0.2s from ball { point (-0.16m, 0, -5mm) point (-0.1m, 10mm, 20mm) } "
+      "}");
+  ASSERT_TRUE(player_->start("a", false, targets_.angles, Vector2(0.15, 0.055)));
+  model::BodyPoses bodies;
+  for (int i = 0; i < 5; ++i) step();
+  model::forwardKinematics(model_, targets_.angles, bodies);
+  // Ball centre at (0.15, 0.055, 0.042 - 0.35) in the upright torso frame.
+  EXPECT_LT((model::solePose(model_, bodies, model::Side::Left).translation() -
+             Vector3(-0.01, 0.055, 0.042 - 0.35 - 0.005))
+                .norm(),
+            1e-9);
+  for (int i = 0; i < 5; ++i) step();
+  model::forwardKinematics(model_, targets_.angles, bodies);
+  EXPECT_LT((model::solePose(model_, bodies, model::Side::Left).translation() -
+             Vector3(0.05, 0.065, 0.042 - 0.35 + 0.02))
+                .norm(),
+            1e-9);
+}
+
+TEST_F(Player, UnknownSkillDoesNotStart) {
+  load("skill a { wait 1s }");
+  EXPECT_FALSE(player_->start("b", false, targets_.angles));
+}
+
+}  // namespace
+}  // namespace nonet::motion
