@@ -47,6 +47,7 @@ struct Case {
   double start;    // every coordinate
   double sigma;
   std::int64_t budget;
+  int seeds;  // an odd number; pagmo takes seconds for the hard ones in 40 dimensions
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -109,27 +110,29 @@ TEST_P(AgainstPagmo, NeedsAtMostAFifthMoreEvaluations) {
   std::vector<std::int64_t> mine;
   std::vector<std::int64_t> theirs;
   const int population = c.population > 0 ? c.population : 4 + static_cast<int>(3.0 * std::log(c.dimension));
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(c.seeds); ++seed) {
     mine.push_back(ours(c, seed));
     theirs.push_back(pagmos(c, seed, population));
   }
   std::sort(mine.begin(), mine.end());
   std::sort(theirs.begin(), theirs.end());
+  const auto mineMedian = mine[mine.size() / 2];
+  const auto theirMedian = theirs[theirs.size() / 2];
   fmt::print("{} in {} dimensions: median {} evaluations, pagmo {} (ratio {:.2f})\n", c.name, c.dimension,
-             mine[1], theirs[1], static_cast<double>(mine[1]) / static_cast<double>(theirs[1]));
-  EXPECT_LT(mine[1], c.budget) << "not solved";
-  EXPECT_LE(static_cast<double>(mine[1]), 1.2 * static_cast<double>(theirs[1]));
+             mineMedian, theirMedian, static_cast<double>(mineMedian) / static_cast<double>(theirMedian));
+  EXPECT_LT(mineMedian, c.budget) << "not solved";
+  EXPECT_LE(static_cast<double>(mineMedian), 1.2 * static_cast<double>(theirMedian));
 }
 
 INSTANTIATE_TEST_SUITE_P(Standard, AgainstPagmo,
-                         testing::Values(Case{"sphere", sphere, 10, 0, 1.0, 0.5, 100000},
-                                         Case{"sphere", sphere, 40, 0, 1.0, 0.5, 100000},
-                                         Case{"ellipsoid", ellipsoid, 10, 0, 1.0, 0.5, 200000},
-                                         Case{"ellipsoid", ellipsoid, 40, 0, 1.0, 0.5, 400000},
-                                         Case{"rosenbrock", rosenbrock, 10, 0, 0.0, 0.3, 200000},
-                                         Case{"rosenbrock", rosenbrock, 40, 0, 0.0, 0.3, 600000},
-                                         Case{"rastrigin", rastrigin, 10, 600, 2.0, 2.0, 400000},
-                                         Case{"rastrigin", rastrigin, 40, 2000, 2.0, 2.0, 1500000}));
+                         testing::Values(Case{"sphere", sphere, 10, 0, 1.0, 0.5, 100000, 3},
+                                         Case{"sphere", sphere, 40, 0, 1.0, 0.5, 100000, 3},
+                                         Case{"ellipsoid", ellipsoid, 10, 0, 1.0, 0.5, 200000, 3},
+                                         Case{"ellipsoid", ellipsoid, 40, 0, 1.0, 0.5, 400000, 1},
+                                         Case{"rosenbrock", rosenbrock, 10, 0, 0.0, 0.3, 200000, 3},
+                                         Case{"rosenbrock", rosenbrock, 40, 0, 0.0, 0.3, 600000, 1},
+                                         Case{"rastrigin", rastrigin, 10, 600, 2.0, 2.0, 400000, 3},
+                                         Case{"rastrigin", rastrigin, 40, 2000, 2.0, 2.0, 1500000, 1}));
 
 TEST(CmaEs, ContinuesFromItsCheckpointToTheLastBit) {
   CmaEsSettings settings;
