@@ -1,50 +1,27 @@
 #include "nonet/sim/world.h"
 
-#include <cstring>
-#include <mutex>
-
 #include "sim/world_implementation.h"
 #include "sim/world_scene.h"
 
 namespace nonet::sim {
 
-namespace {
-
-// ODE wants one global initialisation and per-thread data for each thread that collides or steps.
-void prepareThread() {
-  static std::once_flag initialised;
-  std::call_once(initialised, [] { dInitODE2(0); });
-  thread_local const bool prepared = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
-  static_cast<void>(prepared);
-}
-
-}  // namespace
-
-World::Implementation::Implementation(const WorldSettings& worldSettings) : settings(worldSettings) {
-  prepareThread();
-  world = dWorldCreate();
-  // Server facts 3.1. The values pass through 32-bit floats.
-  dWorldSetGravity(world, 0.0, 0.0, -9.81F);
-  dWorldSetCFM(world, 0.00001F);
-  dWorldSetAutoDisableFlag(world, 1);
-  dWorldSetContactSurfaceLayer(world, 0.001F);
-  dWorldSetQuickStepNumIterations(world, settings.quickIterations);
+World::Implementation::Implementation(const WorldSettings& worldSettings)
+    : settings(worldSettings), workers(worldSettings.threads) {
+  prepareOdeThread();
   space = dHashSpaceCreate(nullptr);
   dSpaceSetCleanup(space, 0);
-  contactJoints = dJointGroupCreate(0);
   buildField();
   buildBall();
 }
 
 World::Implementation::~Implementation() {
+  commonWorlds.clear();
   for (const auto& robot : robots) destroyRobot(*robot);
-  dJointGroupDestroy(contactJoints);
   dGeomDestroy(ball.geom);
   for (dGeomID geom : fixtures) dGeomDestroy(geom);
   dSpaceDestroy(leftGoal);
   dSpaceDestroy(rightGoal);
   dSpaceDestroy(space);
-  dWorldDestroy(world);
 }
 
 World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>(settings)) {}
@@ -134,7 +111,7 @@ void World::prePhysics() {
   implementation_->prePhysics();
 }
 void World::stepPhysics() {
-  prepareThread();
+  prepareOdeThread();
   implementation_->stepPhysics();
 }
 std::span<const ContactPair> World::contacts() const {

@@ -34,138 +34,21 @@ const Surface kBallSurface{.bounces = true,
 const Surface kFrameSurface{.bounces = true, .bounce = 0.8F, .bounceVelocity = 2.0F};
 const Surface kTriggerSurface{.contacts = false};
 
-const Vector3f kBirthPlace{0.0F, -1.0F, 1.5F};  // of a robot's torso
-
-// Speed limit of the joints that are given in degrees per second, after the script's arithmetic.
-double defaultJointSpeed() {
-  return scriptNumber(3.14159265 * scriptNumber(351.77 / 180.0));
-}
-
-/// From the model's robot frame (x forward, y left) to the server's body frame (x right, y forward).
-Vector3 toServer(const Vector3& v) {
-  return {0.0 - v.y(), v.x(), v.z()};
-}
-
-/// Extents of a box: no sign.
-Vector3 extentsToServer(const Vector3& size) {
-  return {size.y(), size.x(), size.z()};
-}
-
 Vector3f rounded(const Vector3& v) {
   return {static_cast<float>(scriptNumber(v.x())), static_cast<float>(scriptNumber(v.y())),
           static_cast<float>(scriptNumber(v.z()))};
 }
 
-// A robot part as the scene description computes it.
-struct Part {
-  Vector3 offset = Vector3::Zero();   // to the parent's centre, server axes
-  Vector3 extents = Vector3::Zero();  // box
-  Vector3 anchor = Vector3::Zero();   // of its joint, own frame
-  double mass = 0.0;
-};
-
-// The description of type 4 computes foot and toe from the toe's length; each step is rounded to six digits.
-void adjustFootWithToe(const model::RobotModel& model, BodyId id, Part& part) {
-  constexpr double kFootLength = 0.16;
-  constexpr double kFootMass = 0.2;
-  const double toeLength = scriptNumber(model.body(BodyId::RToe).shape.size.x());
-  const double share = scriptNumber(scriptNumber(toeLength / kFootLength) * 0.5);
-  if (id == BodyId::RFoot || id == BodyId::LFoot) {
-    const double footLength = scriptNumber(kFootLength - toeLength);
-    part.extents.y() = footLength;
-    part.mass = scriptNumber(scriptNumber(1.0 - share) * kFootMass);
-    part.offset.y() = scriptNumber(scriptNumber(footLength * 0.5) - 0.05);
-  } else if (id == BodyId::RToe || id == BodyId::LToe) {
-    part.extents.y() = toeLength;
-    part.mass = scriptNumber(share * kFootMass);
-    part.anchor.y() = scriptNumber(-0.5 * toeLength);
-  }
-}
-
-Part partFor(const model::RobotModel& model, const model::BodySpec& spec) {
-  Part part;
-  part.offset = toServer(spec.offset);
-  part.extents = extentsToServer(spec.shape.size);
-  part.mass = spec.mass;
-  if (spec.joint) part.anchor = toServer(model.joint(*spec.joint).anchor);
-  if (model.hasToes()) adjustFootWithToe(model, spec.id, part);
-  return part;
-}
-
-void setMass(dBodyID body, const model::Shape& shape, const Part& part) {
-  dMass mass;
-  const auto total = static_cast<float>(part.mass);
-  switch (shape.kind) {
-    case model::ShapeKind::Box: {
-      const Vector3f size = part.extents.cast<float>();
-      dMassSetBoxTotal(&mass, total, size.x(), size.y(), size.z());
-      break;
-    }
+dGeomID createGeom(const RobotPlan::Body& part) {
+  switch (part.shape) {
+    case model::ShapeKind::Box:
+      return dCreateBox(nullptr, part.size.x(), part.size.y(), part.size.z());
     case model::ShapeKind::Sphere:
-      dMassSetSphereTotal(&mass, total, static_cast<float>(shape.size.x()));
-      break;
+      return dCreateSphere(nullptr, part.size.x());
     case model::ShapeKind::Capsule:
-      dMassSetCapsuleTotal(&mass, total, 3, static_cast<float>(shape.size.x()),
-                           static_cast<float>(shape.size.y()));
-      break;
-  }
-  dBodySetMass(body, &mass);
-}
-
-dGeomID createGeom(const model::Shape& shape, const Part& part) {
-  switch (shape.kind) {
-    case model::ShapeKind::Box: {
-      const Vector3f size = part.extents.cast<float>();
-      return dCreateBox(nullptr, size.x(), size.y(), size.z());
-    }
-    case model::ShapeKind::Sphere:
-      return dCreateSphere(nullptr, static_cast<float>(shape.size.x()));
-    case model::ShapeKind::Capsule:
-      return dCreateCapsule(nullptr, static_cast<float>(shape.size.x()), static_cast<float>(shape.size.y()));
+      return dCreateCapsule(nullptr, part.size.x(), part.size.y());
   }
   return nullptr;
-}
-
-void placeBody(dBodyID body, const ScenePose& pose) {
-  dMatrix3 rotation;
-  scene::toOde(pose.rotation, rotation);
-  dBodySetRotation(body, rotation);
-  dBodySetPosition(body, pose.position.x(), pose.position.y(), pose.position.z());
-}
-
-// Server facts 2.4: parameters are 32-bit on their way to ODE.
-void setMotor(dJointID joint, const JointNode& node) {
-  dJointSetHingeParam(joint, dParamFMax, 10.0F);
-  dJointSetHingeParam(joint, dParamCFM, 1e-8F);
-  dJointSetHingeParam(joint, dParamStopCFM, 1e-8F);
-  dJointSetHingeParam(joint, dParamStopERP, 0.8F);
-  dJointSetHingeParam(joint, dParamFudgeFactor, 1e-5F);
-  dJointSetHingeParam(joint, dParamBounce, 1.0F);
-  dJointSetHingeParam(joint, dParamLoStop, node.lowStop);
-  dJointSetHingeParam(joint, dParamHiStop, node.highStop);
-}
-
-JointNode createJoint(dWorldID world, const model::JointSpec& spec, const Part& part, const BodyNode& child,
-                      dBodyID parent) {
-  JointNode node;
-  node.id = spec.id;
-  node.child = child.body;
-  node.childId = child.id;
-  const bool byDegrees = std::abs(spec.maxSpeed - toRadians(351.77)) < 1e-9;
-  node.maxSpeed = static_cast<float>(byDegrees ? defaultJointSpeed() : scriptNumber(spec.maxSpeed));
-  node.lowStop = scene::toRadians(static_cast<float>(std::round(toDegrees(spec.low))));
-  node.highStop = scene::toRadians(static_cast<float>(std::round(toDegrees(spec.high))));
-  node.joint = dJointCreateHinge(world, nullptr);
-  dJointAttach(node.joint, child.body, parent);
-  const Vector3f anchor = scene::transform(child.pose, rounded(part.anchor));
-  dJointSetHingeAnchor(node.joint, anchor.x(), anchor.y(), anchor.z());
-  // The hip's axis is written as 0.7071, ODE normalises it.
-  const Vector3 scaled = toServer(spec.axis).unaryExpr(
-      [](double c) { return std::abs(std::abs(c) - 0.7071) < 1e-4 ? std::copysign(0.7071, c) : c; });
-  const Vector3f axis = scene::rotate(child.pose.rotation, rounded(scaled));
-  dJointSetHingeAxis(node.joint, axis.x(), axis.y(), axis.z());
-  setMotor(node.joint, node);
-  return node;
 }
 
 bool isFoot(BodyId id) {
@@ -253,15 +136,16 @@ void World::Implementation::buildBall() {
   ball.pose.position = Vector3f(0.0F, 0.0F, radius);
   ball.collider.party.kind = ContactParty::Kind::Ball;
   ball.collider.surface = &kBallSurface;
-  ball.body = dBodyCreate(world);
-  placeBody(ball.body, ball.pose);
+  ball.collider.node = &ball;
+  ball.collider.cell = &ballCell;
+  ballCell.mechanism = sim::buildBall(ballCell.world.id(), radius, static_cast<float>(settings.ballMass));
+  ballCell.nodes = {&ball};
+  ball.body = ballCell.mechanism.bodies.front();
+  watchBody(ball);
   ball.geom = dCreateSphere(nullptr, radius);
   dGeomSetData(ball.geom, &ball.collider);
   dSpaceAdd(space, ball.geom);
-  dGeomSetBody(ball.geom, ball.body);
-  dMass mass;
-  dMassSetSphereTotal(&mass, static_cast<float>(settings.ballMass), radius);
-  dBodySetMass(ball.body, &mass);
+  placeGeom(ball);
 }
 
 RobotHandle World::Implementation::addRobot(int type) {
@@ -271,7 +155,8 @@ RobotHandle World::Implementation::addRobot(int type) {
 }
 
 void World::Implementation::addRobotAs(RobotHandle handle, int type) {
-  const model::RobotModel& model = model::robotModel(type);
+  model::robotModel(type);  // throws if there is no such type
+  const RobotPlan& plan = robotPlan(type);
   auto node = std::make_unique<RobotNode>();
   RobotNode& robot = *node;
   robot.handle = handle;
@@ -280,40 +165,39 @@ void World::Implementation::addRobotAs(RobotHandle handle, int type) {
   robot.jointIndex.fill(-1);
   robot.space = dHashSpaceCreate(space);
   dSpaceSetCleanup(robot.space, 0);
-  robot.bodies.reserve(model.bodies().size());
-  std::array<Vector3, model::kBodyCount> places;  // as the description computes them, server axes
-  for (const model::BodySpec& spec : model.bodies()) {
-    const Part part = partFor(model, spec);
-    Vector3& place = places[index(spec.id)];
-    if (spec.joint) {
-      const Vector3& parent = places[index(spec.parent)];
-      for (int i = 0; i < 3; ++i) place[i] = scriptNumber(parent[i] + scriptNumber(part.offset[i]));
-    } else {
-      place = kBirthPlace.cast<double>();
-    }
-    robot.bodyIndex[index(spec.id)] = static_cast<int>(robot.bodies.size());
-    BodyNode& body = robot.bodies.emplace_back();
-    body.id = spec.id;
-    body.pose.position = place.cast<float>();
-    body.collider.party = {ContactParty::Kind::Robot, handle, spec.id};
+  robot.cell.mechanism = buildMechanism(robot.cell.world.id(), plan);
+  robot.cell.robotType = type;
+  robot.cell.handle = handle;
+  robot.bodies.resize(plan.bodies.size());
+  for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
+    const RobotPlan::Body& part = plan.bodies[i];
+    BodyNode& body = robot.bodies[i];
+    robot.bodyIndex[index(part.id)] = static_cast<int>(i);
+    robot.cell.nodes.push_back(&body);
+    body.place = i;
+    body.id = part.id;
+    body.pose = part.pose;
+    body.body = robot.cell.mechanism.bodies[i];
+    watchBody(body);
+    body.collider.party = {ContactParty::Kind::Robot, handle, part.id};
     body.collider.surface = &kRobotSurface;
-    body.body = dBodyCreate(world);
-    placeBody(body.body, body.pose);
-    setMass(body.body, spec.shape, part);
-    if (spec.collider) {
-      body.geom = createGeom(spec.shape, part);
+    body.collider.node = &body;
+    body.collider.cell = &robot.cell;
+    if (part.collider) {
+      body.geom = createGeom(part);
       dGeomSetData(body.geom, &body.collider);
       dSpaceAdd(robot.space, body.geom);
-      dGeomSetBody(body.geom, body.body);
+      placeGeom(body);
     }
-    if (isFoot(spec.id)) {
+    if (isFoot(part.id)) {
       body.collider.footSensor = static_cast<int>(robot.feet.size());
-      robot.feet.emplace_back().body = spec.id;
+      robot.feet.emplace_back().body = part.id;
     }
-    if (spec.joint) {
-      robot.jointIndex[index(*spec.joint)] = static_cast<int>(robot.joints.size());
-      robot.joints.push_back(
-          createJoint(world, model.joint(*spec.joint), part, body, robot.body(spec.parent).body));
+    if (part.joint) {
+      robot.jointIndex[index(part.joint->id)] = static_cast<int>(robot.joints.size());
+      robot.joints.push_back({part.joint->id, robot.cell.mechanism.joints[robot.joints.size()], body.body,
+                              part.id, part.joint->maxSpeed, part.joint->lowStop, part.joint->highStop,
+                              false});
     }
   }
   handles.push_back(handle);
@@ -321,16 +205,15 @@ void World::Implementation::addRobotAs(RobotHandle handle, int type) {
 }
 
 void World::Implementation::destroyRobot(RobotNode& robot) {
-  for (const JointNode& joint : robot.joints) dJointDestroy(joint.joint);
   for (const BodyNode& body : robot.bodies) {
     if (body.geom != nullptr) dGeomDestroy(body.geom);
-    dBodyDestroy(body.body);
   }
   dSpaceDestroy(robot.space);
 }
 
 void World::Implementation::removeRobot(RobotHandle handle) {
   destroyRobot(robot(handle));
+  commonWorlds.forget(handle);
   std::erase(handles, handle);
   std::erase_if(robots, [handle](const auto& node) { return node->handle == handle; });
 }

@@ -5,12 +5,15 @@
 #include <deque>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include <ode/ode.h>
 
 #include "nonet/sim/world.h"
+
+#include "sim/world_islands.h"
+#include "sim/world_quick.h"
+#include "sim/world_workers.h"
 
 namespace nonet::sim {
 
@@ -31,6 +34,8 @@ struct Surface {
 /// What ODE's geom data points to.
 struct Collider {
   ContactParty party;
+  BodyNode* node = nullptr;  // null: fixed
+  Cell* cell = nullptr;      // null: fixed
   const Surface* surface = nullptr;
   World::Goal trigger = World::Goal::None;
   int footSensor = -1;  // index of the robot's foot sensor that hears about contacts of this geom
@@ -40,12 +45,14 @@ struct Collider {
 inline constexpr int kStepsUntilSleep = 10;
 
 struct BodyNode {
+  std::size_t place = 0;  // in its cell
   model::BodyId id = model::BodyId::Torso;
   dBodyID body = nullptr;
   dGeomID geom = nullptr;  // null: no collider
   ScenePose pose;
   Collider collider;
   int stepsUntilSleep = kStepsUntilSleep;  // ODE's counter, followed here because ODE does not show it
+  int stepsBefore = kStepsUntilSleep;      // the same before this step
   bool moved = true;                       // the geom is marked as moved since the last collision
 };
 
@@ -55,13 +62,26 @@ inline void wakeBody(BodyNode& node) {
   node.stepsUntilSleep = kStepsUntilSleep;
 }
 
-/// Sets ODE's countdown to sleep, for which it has no setter: enabling a body copies it from the body's
+/// Enables a body with this countdown to sleep, for which ODE has no setter: enabling copies it from a
 /// setting.
+inline void setOdeCountdown(dBodyID body, int steps) {
+  dBodySetAutoDisableSteps(body, steps);
+  dBodyEnable(body);
+  dBodySetAutoDisableSteps(body, kStepsUntilSleep);
+}
 inline void setCountdown(BodyNode& node, int steps) {
-  dBodySetAutoDisableSteps(node.body, steps);
-  dBodyEnable(node.body);
-  dBodySetAutoDisableSteps(node.body, kStepsUntilSleep);
+  setOdeCountdown(node.body, steps);
   node.stepsUntilSleep = steps;
+}
+
+/// Puts the geom where the body is. (Geoms are not attached to ODE's bodies: bodies are moved by several
+/// threads, geoms by one, in an order that does not depend on them.)
+inline void placeGeom(BodyNode& node) {
+  node.moved = true;
+  if (node.geom == nullptr) return;
+  const dReal* position = dBodyGetPosition(node.body);
+  dGeomSetRotation(node.geom, dBodyGetRotation(node.body));
+  dGeomSetPosition(node.geom, position[0], position[1], position[2]);
 }
 
 struct JointNode {
@@ -91,6 +111,7 @@ struct RobotNode {
   RobotHandle handle = kNoRobot;
   int type = 0;
   dSpaceID space = nullptr;
+  Cell cell;
   std::vector<BodyNode> bodies;   // in creation order; never resized after building (geoms point into it)
   std::vector<JointNode> joints;  // in creation order
   std::array<int, model::kBodyCount> bodyIndex{};
@@ -142,9 +163,10 @@ struct World::Implementation {
   void prePhysics();
   void stepPhysics();
   void collideGeoms(dGeomID first, dGeomID second);
-  void addContacts(const Collider& first, const Collider& second, dGeomID firstGeom, dGeomID secondGeom,
-                   int count);
-  void followSleep(BodyNode& node) const;
+  void addContacts(const Collider& first, const Collider& second, int count);
+  void followSleep(BodyNode& node, bool attached) const;
+  void formClusters();
+  void placeMovedGeoms();
   void copyPoses();
   void readFootSensors(RobotNode& robot);
 
@@ -155,24 +177,34 @@ struct World::Implementation {
   dGeomID memberGeom(int number);
 
   WorldSettings settings;
-  dWorldID world = nullptr;
   dSpaceID space = nullptr;
   dSpaceID leftGoal = nullptr;
   dSpaceID rightGoal = nullptr;
-  dJointGroupID contactJoints = nullptr;
   std::vector<dGeomID> fixtures;  // ground, goals, walls
   std::vector<std::unique_ptr<Collider>> fixtureColliders;
   bool fixturesMoved = true;
   BodyNode ball;
+  Cell ballCell;
   std::vector<std::unique_ptr<RobotNode>> robots;  // in order of creation
   std::vector<RobotHandle> handles;                // the same order
   RobotHandle nextHandle = 0;
   std::uint64_t cycles = 0;
   std::vector<ContactPair> contacts;
   Goal ballInGoal = Goal::None;
+
+  // Of the step in progress; kept for their memory.
+  StepWorkers workers;
+  CommonWorlds commonWorlds;
   std::array<dContact, 4> contactBuffer{};
-  std::deque<dJointFeedback> feedback;  // a deque: ODE keeps pointers to the elements during a step
+  std::deque<PendingContact> pendingContacts;  // deques: others keep pointers to the elements during a step
+  std::size_t pendingUsed = 0;
+  std::deque<dJointFeedback> feedback;
   std::size_t feedbackUsed = 0;
+  std::vector<Cell*> cells;  // ball, then robots in order of creation
+  std::deque<Cluster> clusters;
+  std::size_t clustersUsed = 0;
+  std::vector<Cluster*> movedClusters;
+  std::vector<std::size_t> leaders;  // per cell: the first cell of its cluster
 };
 
 }  // namespace nonet::sim

@@ -1,4 +1,6 @@
 // Everything that changes poses and velocities from outside the physics.
+#include <cmath>
+
 #include "sim/world_implementation.h"
 #include "sim/world_scene.h"
 
@@ -31,7 +33,7 @@ void setState(BodyNode& node, const World::BodyState& state) {
   dBodySetQuaternion(node.body, q);
   dBodySetLinearVel(node.body, v.x(), v.y(), v.z());
   dBodySetAngularVel(node.body, w.x(), w.y(), w.z());
-  node.moved = true;
+  placeGeom(node);
   node.pose = {scene::rotationFromOde(dBodyGetRotation(node.body)),
                scene::fromOde(dBodyGetPosition(node.body))};
   wakeBody(node);
@@ -40,16 +42,18 @@ void setState(BodyNode& node, const World::BodyState& state) {
 }  // namespace
 
 void World::Implementation::moveRobot(RobotNode& robot, const Vector3f& position) {
+  if (!position.allFinite()) return;                          // ODE would end the process
   const Vector3f torso = robot.bodies.front().pose.position;  // before any move of this cycle (facts 4.8)
   for (BodyNode& body : robot.bodies) {
     const Vector3f target = position + (scene::fromOde(dBodyGetPosition(body.body)) - torso);
     dBodySetPosition(body.body, target.x(), target.y(), target.z());
     stop(body.body);
-    body.moved = true;
+    placeGeom(body);
   }
 }
 
 void World::Implementation::placeRobot(RobotNode& robot, const Vector3f& position, float yawDegrees) {
+  if (!position.allFinite() || !std::isfinite(yawDegrees)) return;
   const dBodyID torso = robot.bodies.front().body;
   const Vector3f origin = scene::fromOde(dBodyGetPosition(torso));
   const Eigen::Matrix3f back = scene::rotationFromOde(dBodyGetRotation(torso)).transpose();
@@ -61,10 +65,10 @@ void World::Implementation::placeRobot(RobotNode& robot, const Vector3f& positio
     const Vector3f target = position + scene::rotate(turn, place - origin);
     dBodySetPosition(body.body, target.x(), target.y(), target.z());
     stop(body.body);
-    body.moved = true;
     dMatrix3 matrix;
     scene::toOde(rotation, matrix);
     dBodySetRotation(body.body, matrix);
+    placeGeom(body);
   }
 }
 
@@ -121,12 +125,14 @@ const ScenePose& World::ballPose() const {
   return implementation_->ball.pose;
 }
 void World::setBallPosition(const Vector3f& position) {
+  if (!position.allFinite()) return;
   BodyNode& ball = implementation_->ball;
   dBodySetPosition(ball.body, position.x(), position.y(), position.z());
-  ball.moved = true;
+  placeGeom(ball);
   wakeBody(ball);
 }
 void World::setBallVelocity(const Vector3f& velocity) {
+  if (!velocity.allFinite()) return;
   BodyNode& ball = implementation_->ball;
   dBodySetLinearVel(ball.body, velocity.x(), velocity.y(), velocity.z());
   dBodySetAngularVel(ball.body, 0.0, 0.0, 0.0);

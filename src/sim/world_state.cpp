@@ -117,7 +117,9 @@ void restoreBody(Reader& in, BodyNode& node) {
   const bool enabled = in.get<bool>();
   setCountdown(node, in.get<int>());
   if (!enabled) dBodyDisable(body);
-  node.moved = in.get<bool>();
+  const bool moved = in.get<bool>();
+  placeGeom(node);
+  node.moved = moved;
   node.pose = in.pose();
 }
 
@@ -229,6 +231,7 @@ void World::Implementation::restore(std::span<const std::uint8_t> state) {
   }
   for (const auto& robot : robots) destroyRobot(*robot);
   robots.clear();
+  commonWorlds.clear();
   handles.clear();
   cycles = in.get<std::uint64_t>();
   nextHandle = in.get<RobotHandle>();

@@ -96,16 +96,15 @@ void World::Implementation::collideGeoms(dGeomID first, dGeomID second) {
     });
     return;
   }
-  if (dGeomGetBody(first) == nullptr && dGeomGetBody(second) == nullptr) return;
   const auto& firstCollider = *static_cast<const Collider*>(dGeomGetData(first));
   const auto& secondCollider = *static_cast<const Collider*>(dGeomGetData(second));
+  if (firstCollider.node == nullptr && secondCollider.node == nullptr) return;
   const int count = dCollide(first, second, static_cast<int>(contactBuffer.size()), &contactBuffer[0].geom,
                              sizeof(dContact));
-  if (count > 0) addContacts(firstCollider, secondCollider, first, second, count);
+  if (count > 0) addContacts(firstCollider, secondCollider, count);
 }
 
-void World::Implementation::addContacts(const Collider& first, const Collider& second, dGeomID firstGeom,
-                                        dGeomID secondGeom, int count) {
+void World::Implementation::addContacts(const Collider& first, const Collider& second, int count) {
   ContactPair pair{first.party, second.party, count, Vector3f::Zero()};
   for (int i = 0; i < count; ++i) pair.meanPosition += scene::fromOde(contactBuffer[i].geom.pos);
   pair.meanPosition /= static_cast<float>(count);
@@ -118,14 +117,15 @@ void World::Implementation::addContacts(const Collider& first, const Collider& s
   for (int i = 0; i < count; ++i) {
     dContact& contact = contactBuffer[i];
     mixSurfaces(*first.surface, *second.surface, contact.surface);
-    const dJointID joint = dJointCreateContact(world, contactJoints, &contact);
-    dJointAttach(joint, dGeomGetBody(firstGeom), dGeomGetBody(secondGeom));
+    if (pendingUsed == pendingContacts.size()) pendingContacts.emplace_back();
+    PendingContact& pending = pendingContacts[pendingUsed++];
+    pending = {contact, &first, &second, nullptr};
     if (first.footSensor < 0) continue;
     // Server facts 2.6: only the first geom of a pair hears about the force.
     if (feedbackUsed == feedback.size()) feedback.emplace_back();
     dJointFeedback& result = feedback[feedbackUsed++];
     result = dJointFeedback{};
-    dJointSetFeedback(joint, &result);
+    pending.feedback = &result;
     robot(first.party.robot)
         .feet[static_cast<std::size_t>(first.footSensor)]
         .touches.push_back({scene::fromOde(contact.geom.pos), &result});
@@ -135,31 +135,31 @@ void World::Implementation::addContacts(const Collider& first, const Collider& s
 void World::Implementation::stepPhysics() {
   contacts.clear();
   ballInGoal = Goal::None;
+  pendingUsed = 0;
   feedbackUsed = 0;
   dSpaceCollide(space, this, [](void* self, dGeomID a, dGeomID b) {
     static_cast<Implementation*>(self)->collideGeoms(a, b);
   });
-  fixturesMoved = false;
-  followSleep(ball);
-  for (const auto& robot : robots) {
-    for (BodyNode& body : robot->bodies) followSleep(body);
-  }
-  if (settings.solver == WorldSettings::Solver::Exact) {
-    dWorldStep(world, kStep);
-  } else {
-    dWorldQuickStep(world, kStep);
-  }
+  formClusters();
+  workers.run(clustersUsed, [this](std::size_t i) {
+    if (settings.solver == WorldSettings::Solver::Exact) {
+      stepExactly(clusters[i], kStep);
+    } else {
+      stepQuickly(clusters[i], kStep);
+    }
+  });
+  placeMovedGeoms();
   copyPoses();
   for (const auto& robot : robots) readFootSensors(*robot);
-  dJointGroupEmpty(contactJoints);
   ++cycles;
 }
 
-// ODE's rule for idle bodies, kept beside it for World::save(): a body that is attached to something counts
-// down while both its speeds are below 0.01, and starts again otherwise.
-void World::Implementation::followSleep(BodyNode& node) const {
+// ODE's rule for idle bodies, kept beside it: a body that is attached to something counts down while both its
+// speeds are below 0.01, and starts again otherwise.
+void World::Implementation::followSleep(BodyNode& node, bool attached) const {
   constexpr dReal kThreshold = dReal(0.01) * dReal(0.01);
-  if (dBodyGetNumJoints(node.body) == 0 || dBodyIsEnabled(node.body) == 0) return;
+  node.stepsBefore = node.stepsUntilSleep;
+  if (!attached || dBodyIsEnabled(node.body) == 0) return;
   const dReal* v = dBodyGetLinearVel(node.body);
   const dReal* w = dBodyGetAngularVel(node.body);
   const bool idle = v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= kThreshold &&
@@ -167,9 +167,84 @@ void World::Implementation::followSleep(BodyNode& node) const {
   node.stepsUntilSleep = idle ? std::max(0, node.stepsUntilSleep - 1) : kStepsUntilSleep;
 }
 
+// Cells are joined by the contacts between them (union-find; the first cell of a cluster leads it).
+void World::Implementation::formClusters() {
+  cells.assign(1, &ballCell);
+  for (const auto& robot : robots) cells.push_back(&robot->cell);
+  leaders.resize(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i]->rank = i;
+    leaders[i] = i;
+  }
+  const auto leaderOf = [this](std::size_t i) {
+    while (leaders[i] != i) i = leaders[i];
+    return i;
+  };
+  bool ballTouches = false;
+  for (std::size_t i = 0; i < pendingUsed; ++i) {
+    const Cell* first = pendingContacts[i].first->cell;
+    const Cell* second = pendingContacts[i].second->cell;
+    ballTouches = ballTouches || first == &ballCell || second == &ballCell;
+    if (first == nullptr || second == nullptr) continue;
+    const std::size_t a = leaderOf(first->rank);
+    const std::size_t b = leaderOf(second->rank);
+    leaders[std::max(a, b)] = std::min(a, b);
+  }
+  followSleep(ball, ballTouches);
+  for (const auto& robot : robots) {
+    for (BodyNode& body : robot->bodies) followSleep(body, true);
+  }
+  clustersUsed = 0;
+  for (Cell* cell : cells) {
+    const std::size_t leader = leaderOf(cell->rank);
+    if (leader == cell->rank) {
+      if (clustersUsed == clusters.size()) clusters.emplace_back();
+      Cluster& fresh = clusters[clustersUsed++];
+      fresh.cells.clear();
+      fresh.contacts.clear();
+      fresh.moved.clear();
+      fresh.common = nullptr;
+      cell->cluster = &fresh;
+    } else {
+      cell->cluster = cells[leader]->cluster;
+    }
+    cell->place = cell->cluster->cells.size();
+    cell->cluster->cells.push_back(cell);
+  }
+  for (std::size_t i = 0; i < pendingUsed; ++i) {
+    PendingContact& pending = pendingContacts[i];
+    const Cell* cell = pending.first->cell != nullptr ? pending.first->cell : pending.second->cell;
+    cell->cluster->contacts.push_back(&pending);
+  }
+  if (settings.solver != WorldSettings::Solver::Exact) return;
+  for (std::size_t i = 0; i < clustersUsed; ++i) {
+    Cluster& cluster = clusters[i];
+    if (cluster.cells.size() > 1) cluster.common = &commonWorlds.forCells(cluster.cells, settings, cycles);
+  }
+}
+
+// In one ODE world for all, the newest bodies would come first, cluster by cluster. The order of these moves
+// is the order in which the next collision finds the contacts.
+void World::Implementation::placeMovedGeoms() {
+  fixturesMoved = false;
+  ball.moved = false;
+  for (const auto& robot : robots) {
+    for (BodyNode& body : robot->bodies) body.moved = false;
+  }
+  movedClusters.clear();
+  for (std::size_t i = 0; i < clustersUsed; ++i) {
+    if (!clusters[i].moved.empty()) movedClusters.push_back(&clusters[i]);
+  }
+  std::sort(movedClusters.begin(), movedClusters.end(), [](const Cluster* a, const Cluster* b) {
+    return a->moved.front()->collider.cell->rank > b->moved.front()->collider.cell->rank;
+  });
+  for (const Cluster* cluster : movedClusters) {
+    for (BodyNode* node : cluster->moved) placeGeom(*node);
+  }
+}
+
 void World::Implementation::copyPoses() {
   const auto copy = [](BodyNode& node) {
-    node.moved = dBodyIsEnabled(node.body) != 0;  // what was stepped
     node.pose.rotation = scene::rotationFromOde(dBodyGetRotation(node.body));
     node.pose.position = scene::fromOde(dBodyGetPosition(node.body));
   };

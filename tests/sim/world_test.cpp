@@ -82,6 +82,42 @@ TEST(World, WorldsInSeveralThreadsDoNotDisturbEachOther) {
   for (const auto signature : signatures) EXPECT_EQ(signature, alone.signature());
 }
 
+// Robots apart from each other are stepped by several threads, those that touch together: nobody can tell.
+TEST(World, TheNumberOfThreadsDoesNotMatter) {
+  World one;
+  World three(WorldSettings{.threads = 3});
+  for (World* world : {&one, &three}) {
+    buildCrowd(*world);
+    for (int i = 0; i < 5; ++i) {
+      const RobotHandle robot = world->addRobot(i);
+      world->placeRobot(robot, {static_cast<float>(i) - 2.0F, -1.5F, 0.45F}, 40.0F * static_cast<float>(i));
+    }
+  }
+  for (int i = 0; i < 100; ++i) {
+    driveAndStep(one, i, 1);
+    driveAndStep(three, i, 1);
+    ASSERT_EQ(one.signature(), three.signature()) << "cycle " << i;
+  }
+  EXPECT_EQ(one.save(), three.save());
+}
+
+TEST(World, NumbersThatAreNotFiniteAreIgnored) {
+  World world;
+  const RobotHandle robot = world.addRobot(0);
+  step(world, 2);
+  const std::uint64_t before = world.signature();
+  const float nan = std::nanf("");
+  world.placeRobot(robot, {0.0F, nan, 0.4F}, 0.0F);
+  world.placeRobot(robot, {0.0F, 0.0F, 0.4F}, nan);
+  world.moveRobot(robot, {0.0F, 0.0F, HUGE_VALF});
+  world.setBallPosition({nan, 0.0F, 0.0F});
+  world.setBallVelocity({0.0F, -HUGE_VALF, 0.0F});
+  EXPECT_EQ(world.signature(), before);
+  world.setJointSpeed(robot, JointId::LLeg3, nan);
+  step(world, 10);
+  EXPECT_TRUE(world.bodyPose(robot, BodyId::Torso).position.allFinite());
+}
+
 class WorldSnapshot : public testing::TestWithParam<int> {};
 
 TEST_P(WorldSnapshot, ContinuesBitByBit) {

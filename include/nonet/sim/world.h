@@ -91,6 +91,8 @@ class World {
   float jointAngle(RobotHandle robot, model::JointId joint) const;         // rad
   float jointAngleDegrees(RobotHandle robot, model::JointId joint) const;  // as the perceptor computes it
 
+  // Positions, angles and speeds that are not finite numbers are ignored by all of these.
+
   /// Rigid move: torso to `position`, rotation and joints kept, all velocities 0. Sleeping bodies stay
   /// asleep.
   void moveRobot(RobotHandle robot, const Vector3f& position);
