@@ -172,8 +172,9 @@ class TcpMatch {
         running += process.running ? 1 : 0;
         if (process.running || process.told || over_) continue;
         process.told = true;
-        if (endedBy(process) == "") continue;
-        early_[i] = endedBy(process);
+        const std::string reason = endedBy(process);
+        if (reason.empty()) continue;
+        early_[i] = reason;
         console_.say(fmt::format("{} has ended: {}", nameOf(watcher_.result().players[i]), early_[i]));
         if (!begun_) server_.stop();
       }

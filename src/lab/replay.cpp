@@ -1,10 +1,10 @@
 #include "nonet/lab/replay.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include "nonet/lab/agent_setup.h"
 #include "nonet/protocol/log_file.h"
@@ -13,9 +13,15 @@
 namespace nonet::lab {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using protocol::LogLine;
 using protocol::PerceptKind;
+
+/// Processor time of this thread, us: other programs on the machine do not count.
+double processorTime() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
+}
 
 constexpr int kMessagesToLookAt = 300;    // of a foreign log, to find out who recorded it
 constexpr double kOwnArmDistance = 0.35;  // m: no other robot's lower arm comes that near to the camera
@@ -115,12 +121,11 @@ class Replay {
 
  private:
   void received(std::string_view text) {
-    // In foreign logs every message gets its answer. In our own the recorded answers say which ones did.
-    const auto start = Clock::now();
-    if (!report_.own) (void)session_.answer();
+    const double start = processorTime();
     session_.receive(text);
-    const auto end = Clock::now();
-    cycles_.push_back(std::chrono::duration<double, std::micro>(end - start).count());
+    // In foreign logs every message gets its answer. In our own the recorded answers say which ones did.
+    if (!report_.own) (void)session_.answer();
+    cycles_.push_back(processorTime() - start);
 
     const protocol::Percept& percept = session_.percept();
     protocol::writePercept(percept, written_);
@@ -161,7 +166,9 @@ class Replay {
     // Before the first message comes the greeting, and a lone (syn) for a server that hangs: the transport's
     // clock decided on that, not the agent.
     if (beforeFirstMessage && line.text == "(syn)") return;
+    const double start = processorTime();
     const std::string_view answer = beforeFirstMessage ? session_.begin() : session_.answer();
+    if (!beforeFirstMessage) cycles_.back() += processorTime() - start;
     if (answer == line.text) return;
     ++report_.effectorDifferences;
     if (report_.firstDifference) return;

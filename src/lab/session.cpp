@@ -1,5 +1,6 @@
 #include "nonet/lab/session.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "nonet/protocol/percept_text.h"
@@ -47,13 +48,16 @@ void Session::keepOnce(const protocol::Effectors& older) {
   outgoing_.pass = outgoing_.pass || older.pass;
 }
 
+// Times are printed with two decimals of a number that drifts, so a single step looks like 0.01 to 0.03 s and
+// two look like 0.03 to 0.05. The smoothed time tells them apart.
 void Session::countGap() {
-  // Times are printed with two decimals, so single steps look like 0.01 to 0.03 s.
-  if (counts_.messages > 0) {
-    const long cycles = std::lround((percept_.time - lastTime_) / kCycleTime);
-    if (cycles > 1) counts_.lostCycles += cycles - 1;
-  }
-  lastTime_ = percept_.time;
+  constexpr double kSmoothing = 0.1;
+  const double expected = smoothTime_ + kCycleTime;
+  const double surplus = percept_.time - expected;
+  const long lost = counts_.messages > 0 ? std::lround(surplus / kCycleTime) : 0;
+  counts_.lostCycles += std::max(lost, 0L);
+  const bool steady = counts_.messages > 0 && lost == 0;
+  smoothTime_ = steady ? expected + kSmoothing * surplus : percept_.time;
 }
 
 void Session::watchAcceptance() {

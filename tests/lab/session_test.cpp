@@ -62,6 +62,24 @@ TEST(Session, CountsGapsInTheServersTime) {
   EXPECT_EQ(session.counts().lostCycles, 2 + 3);
 }
 
+// The server's clock is a 32-bit sum of steps, printed with two decimals.
+TEST(Session, DoesNotTakeRoundingForAGap) {
+  for (const bool gap : {false, true}) {
+    Session session(options());
+    session.begin();
+    float time = 78.70F;
+    for (int cycle = 0; cycle < 3000; ++cycle) {
+      time += 0.02F;
+      if (gap && cycle % 100 == 99) continue;
+      char text[64];
+      std::snprintf(text, sizeof text, "(time (now %.2f))", static_cast<double>(time) + 0.004999);
+      session.receive(text);
+      session.answer();
+    }
+    EXPECT_EQ(session.counts().lostCycles, gap ? 29 : 0);
+  }
+}
+
 TEST(Session, KeepsInitWhenItsMessageIsPassedOver) {
   Session session(options());
   session.begin();

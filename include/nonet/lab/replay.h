@@ -51,7 +51,7 @@ struct ReplayReport {
   long effectorDifferences = 0;   // answers that differ from the recorded ones (own logs)
   std::optional<EffectorDifference> firstDifference;
   std::map<std::string, long> perceptors;  // how often each came
-  double cycleMedian = 0.0;                // us per message: parse, agent, write
+  double cycleMedian = 0.0;                // us of processor time per message: parse, agent, write
   double cycleP999 = 0.0;
   // Against mypos, myorien and ballpos, over the messages that hold them.
   std::optional<Quantiles> positionError;  // m, of the camera

@@ -73,8 +73,8 @@ class Session {
   SessionCounts counts_;
   std::string text_;
   Stage stage_ = Stage::Connecting;
-  int pending_ = 0;        // messages since the last answer
-  double lastTime_ = 0.0;  // server time of the last message, s
+  int pending_ = 0;          // messages since the last answer
+  double smoothTime_ = 0.0;  // estimate of the server's time at the last message, s
 };
 
 }  // namespace nonet::lab
