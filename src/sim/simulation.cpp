@@ -109,19 +109,8 @@ void Simulation::Implementation::broadcast(const Player& sender, std::string_vie
   }
 }
 
+// Effectors of robots that exist: World runs their moves at the right place of its walk through the scene.
 void Simulation::Implementation::executeDeferred(Agent& agent) {
-  if (agent.enters) {
-    agent.enters = false;
-    // Number and side are wanted before the robot is built, because its calibration error depends on them.
-    initialise(agent, *agent.init);
-    agent.scene.reset();
-    agent.init.reset();
-    return;
-  }
-  if (agent.scene) {
-    buildRobot(agent, *agent.scene);
-    agent.scene.reset();
-  }
   if (playerOf(agent) == nullptr) return;
   if (agent.init) {
     initialise(agent, *agent.init);
@@ -135,6 +124,18 @@ void Simulation::Implementation::executeDeferred(Agent& agent) {
     referee.requestPassMode(*playerOf(agent));
     agent.pass = false;
   }
+}
+
+void Simulation::Implementation::executeScene(Agent& agent) {
+  if (agent.enters) {
+    agent.enters = false;
+    // Number and side are wanted before the robot is built, because its calibration error depends on them.
+    initialise(agent, *agent.init);
+    agent.init.reset();
+  } else if (agent.scene) {
+    buildRobot(agent, *agent.scene);
+  }
+  agent.scene.reset();
 }
 
 void Simulation::Implementation::buildRobot(Agent& agent, const protocol::Effectors::Scene& scene) {
@@ -208,7 +209,12 @@ void Simulation::Implementation::initialise(Agent& agent, const protocol::Effect
     ++sceneVersion;
   }
   const Vector3f start = referee.game().nextStartPosition(player->side, settings);
-  world.placeRobot(player->robot, start, GameState::startYaw(player->side));
+  const float yaw = GameState::startYaw(player->side);
+  if (entering) {
+    world.placeRobot(player->robot, start, yaw);
+  } else {
+    world.deferPlacement(player->robot, World::DeferredBy::Init, start, yaw);
+  }
 }
 
 // Server facts 4.6.
@@ -236,7 +242,7 @@ void Simulation::Implementation::beam(Agent& agent, const Pose2& request) {
   position.z() = static_cast<float>(settings.agentRadius);
   if (player.side == TeamSide::Right) position.head<2>() = -position.head<2>();
   angle += GameState::startYaw(player.side);
-  world.placeRobot(player.robot, position, angle);
+  world.deferPlacement(player.robot, World::DeferredBy::Beam, position, angle);
 }
 
 void Simulation::Implementation::removeGoneAgents() {
@@ -405,9 +411,12 @@ void Simulation::beginCycle() {
 
 void Simulation::finishCycle() {
   Implementation& self = *implementation_;
-  self.world.prePhysics();
   for (const auto& agent : self.agents) {
     if (!agent->gone) self.executeDeferred(*agent);
+  }
+  self.world.prePhysics();
+  for (const auto& agent : self.agents) {
+    if (!agent->gone) self.executeScene(*agent);
   }
   self.world.stepPhysics();
   self.removeGoneAgents();

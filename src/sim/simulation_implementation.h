@@ -49,6 +49,7 @@ struct Simulation::Implementation {
   void receive(Agent& agent, const protocol::Effectors& message);
   void broadcast(const Player& sender, std::string_view message);
   void executeDeferred(Agent& agent);
+  void executeScene(Agent& agent);
   void buildRobot(Agent& agent, const protocol::Effectors::Scene& scene);
   void initialise(Agent& agent, const protocol::Effectors::Init& init);
   void seedFor(Agent& agent, TeamSide side, int unum) const;

@@ -1,0 +1,585 @@
+#include "nonet/sim/simulation.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nonet/math/angle.h"
+#include "nonet/protocol/percept_text.h"
+#include "nonet/protocol/rounding.h"
+#include "nonet/sim/server_lobby.h"
+
+#include "scenario.h"
+
+namespace nonet::sim::test {
+namespace {
+
+using protocol::Effectors;
+using protocol::Percept;
+
+Effectors sceneMessage(int type) {
+  Effectors effectors;
+  effectors.scene = Effectors::Scene{type, {}};
+  return effectors;
+}
+Effectors initMessage(int unum, std::string_view team) {
+  Effectors effectors;
+  effectors.init = Effectors::Init{unum, protocol::TeamName(team)};
+  return effectors;
+}
+std::string textOf(const Simulation& simulation, AgentHandle agent) {
+  const Percept* percept = simulation.sense(agent);
+  std::string text;
+  if (percept != nullptr) protocol::writePercept(*percept, text);
+  return text;
+}
+
+// Connects, sends scene and init as an agent does, and returns when init has been executed.
+AgentHandle introduce(Simulation& simulation, int type, int unum, std::string_view team) {
+  const AgentHandle agent = simulation.connect();
+  simulation.act(agent, sceneMessage(type));
+  simulation.step();
+  simulation.step();
+  simulation.act(agent, initMessage(unum, team));
+  simulation.step();
+  return agent;
+}
+
+TEST(Handshake, NoMessageBeforeARobotExistsAndNumberOnceInTheSecondAfterInit) {
+  Simulation simulation(quietSettings());
+  const AgentHandle agent = simulation.connect();
+  simulation.step();
+  EXPECT_EQ(simulation.sense(agent), nullptr);
+  simulation.act(agent, sceneMessage(0));
+  simulation.step();
+  EXPECT_EQ(simulation.sense(agent), nullptr);
+  simulation.step();
+  ASSERT_NE(simulation.sense(agent), nullptr);
+  EXPECT_FALSE(simulation.sense(agent)->game.unum);
+
+  simulation.act(agent, initMessage(7, "A"));
+  simulation.step();
+  EXPECT_FALSE(simulation.sense(agent)->game.unum) << "first message after init";
+  simulation.step();
+  EXPECT_EQ(simulation.sense(agent)->game.unum, 7) << "second message after init";
+  EXPECT_EQ(simulation.sense(agent)->game.side, TeamSide::Left);
+  simulation.step();
+  EXPECT_FALSE(simulation.sense(agent)->game.unum) << "only once";
+}
+
+TEST(Handshake, TheRobotIsBornAtItsPlace) {
+  Simulation simulation(quietSettings());
+  const AgentHandle agent = simulation.connect();
+  simulation.act(agent, sceneMessage(0));
+  simulation.step();
+  const AgentInfo info = simulation.agents().at(0);
+  ASSERT_EQ(info.handle, agent);
+  const Vector3f torso = simulation.world().bodyPosition(info.robot, model::BodyId::Torso);
+  EXPECT_NEAR(torso.x(), 0.0, 1e-4);
+  EXPECT_NEAR(torso.y(), -1.0, 1e-4);
+  EXPECT_NEAR(torso.z(), 1.5, 0.005);
+  EXPECT_EQ(info.unum, 0);
+}
+
+TEST(Handshake, WhatComesWithTheSceneMessageIsLost) {
+  Simulation simulation(quietSettings());
+  const AgentHandle agent = simulation.connect();
+  Effectors both = sceneMessage(0);
+  both.init = initMessage(3, "A").init;
+  simulation.act(agent, both);
+  for (int i = 0; i < 5; ++i) simulation.step();
+  EXPECT_EQ(simulation.agents().at(0).unum, 0);
+}
+
+TEST(Handshake, UnknownSceneFilesAndTypesBuildNothing) {
+  Simulation simulation(quietSettings());
+  const AgentHandle agent = simulation.connect();
+  Effectors file;
+  file.scene = Effectors::Scene{0, InlineString<96>("rsg/agent/other.rsg")};
+  simulation.act(agent, file);
+  simulation.step();
+  simulation.act(agent, sceneMessage(5));
+  simulation.step();
+  EXPECT_EQ(simulation.agents().at(0).robot, kNoRobot);
+}
+
+TEST(Handshake, StartPositionsWalkDownTheColumn) {
+  Scenario scenario;
+  // 16 steps of 1.2 m from 9.2 reach -8.8; the next would be -10, which is not below -W/2 yet.
+  double y = 9.2;
+  double x = -14.2;
+  for (int unum = 1; unum <= 11; ++unum) {
+    const AgentHandle agent = scenario.add(TeamSide::Left, unum, unum % 5);
+    EXPECT_NEAR(scenario.torso(agent).x(), x, 1e-3) << unum;
+    EXPECT_NEAR(scenario.torso(agent).y(), y, 1e-3) << unum;
+    y -= 1.2;
+  }
+  const AgentHandle right = scenario.add(TeamSide::Right, 1);
+  EXPECT_NEAR(scenario.torso(right).x(), 14.2, 1e-3);
+  EXPECT_NEAR(scenario.torso(right).y(), 9.2, 1e-3);
+  const ScenePose& pose = scenario.sim.world().bodyPose(scenario.info(right).robot, model::BodyId::Torso);
+  EXPECT_NEAR(pose.rotation.col(1).x(), -1.0, 1e-3) << "the right team looks along -x";
+}
+
+TEST(Handshake, LowestFreeNumberForZero) {
+  Scenario scenario;
+  scenario.add(TeamSide::Left, 1);
+  scenario.add(TeamSide::Left, 3);
+  EXPECT_EQ(scenario.info(scenario.add(TeamSide::Left, 0)).unum, 2);
+  EXPECT_EQ(scenario.info(scenario.add(TeamSide::Left, 0)).unum, 4);
+}
+
+TEST(Handshake, RefusedInitsDropTheRobotFromTheSky) {
+  Simulation simulation(quietSettings());
+  introduce(simulation, 0, 1, "A");
+  introduce(simulation, 0, 1, "B");
+  struct Case {
+    int unum;
+    std::string_view team;
+    const char* why;
+  };
+  for (const Case& c : {Case{2, "C", "third team"}, Case{1, "A", "number taken"}, Case{12, "A", "above 11"},
+                        Case{-1, "A", "negative"}}) {
+    const AgentHandle agent = introduce(simulation, 1, c.unum, c.team);
+    const AgentInfo info = simulation.agents().back();
+    ASSERT_EQ(info.handle, agent);
+    EXPECT_EQ(info.unum, 0) << c.why;
+    EXPECT_EQ(info.side, TeamSide::None) << c.why;
+    const Vector3f torso = simulation.world().bodyPosition(info.robot, model::BodyId::Torso);
+    EXPECT_NEAR(torso.z(), 10.0, 0.01) << c.why;
+    for (int i = 0; i < 4; ++i) simulation.step();
+    EXPECT_EQ(textOf(simulation, agent).find("(team "), std::string::npos) << c.why;
+    simulation.disconnect(agent);
+    simulation.step();
+  }
+}
+
+TEST(Handshake, TeamNamesStayWhenAllPlayersHaveLeft) {
+  Simulation simulation(quietSettings());
+  const AgentHandle a = introduce(simulation, 0, 1, "A");
+  simulation.disconnect(a);
+  simulation.step();
+  introduce(simulation, 0, 1, "B");
+  EXPECT_EQ(simulation.agents().back().side, TeamSide::Right);
+  introduce(simulation, 0, 1, "A");
+  EXPECT_EQ(simulation.agents().back().side, TeamSide::Left);
+  EXPECT_EQ(simulation.agents().back().unum, 1) << "the number is free again";
+}
+
+TEST(Handshake, SideOfANamedTeamCanBeFixed) {
+  Settings settings = quietSettings();
+  settings.rightTeam = "B";
+  Simulation simulation(settings);
+  introduce(simulation, 0, 1, "B");
+  EXPECT_EQ(simulation.agents().back().side, TeamSide::Right);
+  introduce(simulation, 0, 1, "A");
+  EXPECT_EQ(simulation.agents().back().side, TeamSide::Left);
+}
+
+// Server facts 1.4, spelled out again: brute force over many random teams.
+TEST(Handshake, RobotTypeRules) {
+  Random random(5);
+  int refusals = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Settings settings = quietSettings();
+    GameState game(settings);
+    std::array<int, 5> count{};
+    for (int n = 0; n < 11; ++n) {
+      const int type =
+          random.below(3) > 0 ? static_cast<int>(random.below(2)) : static_cast<int>(random.below(5));
+      int robots = 0;
+      int types = 0;
+      bool sumTooLarge = count[type] + 1 > 9;
+      for (int other = 0; other < 5; ++other) {
+        robots += count[other];
+        types += count[other] > 0 ? 1 : 0;
+        if (other != type && count[type] + 1 + count[other] > 9) sumTooLarge = true;
+      }
+      const bool refused = count[type] == 7 || sumTooLarge || (11 - robots <= 3 - types && count[type] > 0);
+      TeamSide side = TeamSide::None;
+      int unum = 0;
+      const auto answer = game.registerPlayer("A", type, side, unum, settings);
+      ASSERT_EQ(answer == GameState::Refusal::TypeRule, refused)
+          << "type " << type << " as number " << robots + 1;
+      if (refused) {
+        ++refusals;
+        continue;
+      }
+      ++count[type];
+      EXPECT_EQ(unum, robots + 1) << "a refusal leaks no number";
+    }
+  }
+  EXPECT_GT(refusals, 50);
+}
+
+// Server facts 1.2: he1 6.0 in answer to message 0 shows in message 2, 6.87 degrees.
+TEST(Cycle, ACommandIsSeenTwoMessagesLater) {
+  Simulation simulation(quietSettings());
+  const AgentHandle agent = introduce(simulation, 0, 1, "A");
+  simulation.step();
+  const auto head = [&] {
+    return toDegrees(simulation.sense(agent)->joints[model::index(model::JointId::Head1)]);
+  };
+  const double before = head();
+  Effectors turn;
+  turn.setSpeed(model::JointId::Head1, 6.0);
+  simulation.act(agent, turn);
+  simulation.step();
+  EXPECT_NEAR(head(), before, 0.011);
+  simulation.step();
+  EXPECT_NEAR(head(), before + 6.87, 0.02);
+}
+
+TEST(Cycle, TheTwoHalvesAreTheWhole) {
+  Simulation whole(quietSettings(), 3);
+  Simulation halves(quietSettings(), 3);
+  introduce(whole, 0, 1, "A");
+  introduce(halves, 0, 1, "A");
+  for (int i = 0; i < 20; ++i) {
+    whole.step();
+    halves.beginCycle();
+    halves.finishCycle();
+  }
+  EXPECT_EQ(whole.signature(), halves.signature());
+}
+
+TEST(Cycle, ServerTimeIsAFloatSum) {
+  Simulation simulation(quietSettings());
+  float sum = 0.0F;
+  for (int i = 0; i < 1000; ++i) {
+    simulation.step();
+    sum += 0.02F;
+  }
+  EXPECT_EQ(simulation.match().serverTime, sum);
+  EXPECT_EQ(simulation.match().time, 0.0F) << "the game has not begun";
+}
+
+TEST(Cycle, VisionComesInEveryThirdMessage) {
+  Simulation simulation(quietSettings());
+  const AgentHandle agent = introduce(simulation, 0, 1, "A");
+  int last = -1;
+  int seen = 0;
+  for (int i = 0; i < 30; ++i) {
+    simulation.step();
+    if (!simulation.sense(agent)->vision) continue;
+    if (last >= 0) {
+      EXPECT_EQ(i - last, 3);
+    }
+    last = i;
+    ++seen;
+  }
+  EXPECT_EQ(seen, 10);
+}
+
+TEST(Cycle, SpeedsThatAreNotNumbersAreIgnored) {
+  Simulation simulation(quietSettings());
+  const AgentHandle agent = introduce(simulation, 0, 1, "A");
+  Effectors bad;
+  bad.setSpeed(model::JointId::Head1, std::nan(""));
+  bad.beam = Pose2(-3.0, 0.0, std::nan(""));
+  simulation.act(agent, bad);
+  for (int i = 0; i < 5; ++i) simulation.step();
+  const Vector3f torso =
+      simulation.world().bodyPosition(simulation.agents().at(0).robot, model::BodyId::Torso);
+  EXPECT_TRUE(torso.allFinite());
+  EXPECT_NEAR(torso.x(), -14.2, 0.01) << "not beamed";
+}
+
+TEST(Beam, OnlyBeforeKickOffAndAfterGoals) {
+  for (int mode = 0; mode < protocol::kPlayModeCount; ++mode) {
+    Scenario scenario;
+    const AgentHandle agent = scenario.add(TeamSide::Left, 2);
+    scenario.setMode(static_cast<PlayMode>(mode));
+    Effectors beam;
+    beam.beam = Pose2(-6.0, 3.0, 0.0);
+    scenario.sim.act(agent, beam);
+    scenario.step();
+    const bool moved = std::abs(scenario.torso(agent).x() + 6.0F) < 0.01F;
+    const bool allowed = mode == 0 || mode == 13 || mode == 14;
+    EXPECT_EQ(moved, allowed) << protocol::playModeName(static_cast<PlayMode>(mode));
+  }
+}
+
+TEST(Beam, AnglesAndPlacesAreSeenFromTheOwnTeam) {
+  Scenario scenario;
+  const AgentHandle left = scenario.add(TeamSide::Left, 2);
+  const AgentHandle right = scenario.add(TeamSide::Right, 2);
+  for (const double angle : {0.0, 30.0, -120.0}) {
+    Effectors beam;
+    beam.beam = Pose2(-6.0, 3.0, toRadians(angle));
+    scenario.sim.act(left, beam);
+    scenario.sim.act(right, beam);
+    scenario.step();
+    for (const AgentHandle agent : {left, right}) {
+      const double sign = agent == left ? 1.0 : -1.0;
+      EXPECT_NEAR(scenario.torso(agent).x(), sign * -6.0, 1e-3);
+      EXPECT_NEAR(scenario.torso(agent).y(), sign * 3.0, 1e-3);
+      const ScenePose& pose = scenario.sim.world().bodyPose(scenario.info(agent).robot, model::BodyId::Torso);
+      const Vector3f forward = pose.rotation.col(1);
+      // Angle 0 looks at the opponent's goal; positive angles turn left.
+      EXPECT_NEAR(forward.x(), sign * std::cos(toRadians(angle)), 1e-3);
+      EXPECT_NEAR(forward.y(), sign * std::sin(toRadians(angle)), 1e-3);
+    }
+  }
+}
+
+TEST(Beam, NoiseIsUniformAndClampedAfterwards) {
+  Settings settings = quietSettings();
+  settings.beamNoiseXY = 0.05;
+  settings.beamNoiseAngle = 10.0;
+  Scenario scenario(settings);
+  const AgentHandle agent = scenario.add(TeamSide::Left, 2);
+  double lowest = 1.0;
+  double highest = -1.0;
+  bool atCentreLine = false;
+  for (int i = 0; i < 60; ++i) {
+    Effectors beam;
+    beam.beam = Pose2(-6.0, 3.0, 0.0);
+    scenario.sim.act(agent, beam);
+    scenario.step();
+    const double error = scenario.torso(agent).x() + 6.0;
+    lowest = std::min(lowest, error);
+    highest = std::max(highest, error);
+  }
+  EXPECT_GE(lowest, -0.0501);
+  EXPECT_LE(highest, 0.0501);
+  EXPECT_LT(lowest, -0.03);
+  EXPECT_GT(highest, 0.03);
+  for (int i = 0; i < 10; ++i) {
+    Effectors beam;
+    beam.beam = Pose2(-20.0, 30.0, 0.0);
+    scenario.sim.act(agent, beam);
+    scenario.step();
+    atCentreLine = std::abs(scenario.torso(agent).x() + 15.0F) < 1e-3F;
+    EXPECT_TRUE(atCentreLine) << "noise does not reach beyond the limits";
+    EXPECT_NEAR(scenario.torso(agent).y(), 10.0, 1e-3);
+  }
+}
+
+TEST(Hear, EveryoneHearsAndTheBearingIsInTheListenersField) {
+  Scenario scenario;
+  const AgentHandle left1 = scenario.add(TeamSide::Left, 1);
+  const AgentHandle left2 = scenario.add(TeamSide::Left, 2);
+  const AgentHandle right1 = scenario.add(TeamSide::Right, 1);
+  scenario.place(left1, -3.0, 0.0);
+  scenario.place(left2, -5.0, 2.0);
+  scenario.place(right1, 4.0, 1.0);
+  scenario.step(2);
+  Effectors say;
+  say.say = InlineString<64>("hello");
+  scenario.sim.act(left1, say);
+  scenario.step(2);
+  const auto heard = [&](AgentHandle agent) { return scenario.sim.sense(agent)->heard; };
+  ASSERT_EQ(heard(left1).size(), 1U);
+  EXPECT_TRUE(heard(left1)[0].self);
+  EXPECT_EQ(heard(left1)[0].message, "hello");
+  EXPECT_EQ(heard(left1)[0].team, "L");
+  ASSERT_EQ(heard(left2).size(), 1U);
+  EXPECT_FALSE(heard(left2)[0].self);
+  EXPECT_NEAR(toDegrees(heard(left2)[0].direction), -45.0, 0.3);
+  ASSERT_EQ(heard(right1).size(), 1U);
+  EXPECT_EQ(heard(right1)[0].team, "L");
+  EXPECT_NEAR(toDegrees(heard(right1)[0].direction), toDegrees(std::atan2(1.0, 7.0)), 0.3)
+      << "the right team's field is turned by half a turn";
+}
+
+// Server facts 1.7: four messages in four consecutive cycles: the first and the third arrive.
+TEST(Hear, OneMessageOfEachTeamEveryTwoCycles) {
+  Scenario scenario;
+  const AgentHandle left1 = scenario.add(TeamSide::Left, 1);
+  const AgentHandle left2 = scenario.add(TeamSide::Left, 2);
+  const AgentHandle left3 = scenario.add(TeamSide::Left, 3);
+  const AgentHandle right1 = scenario.add(TeamSide::Right, 1);
+  std::vector<std::string> atMate;
+  std::vector<std::string> atOpponent;
+  int self = 0;
+  for (int i = 0; i < 6; ++i) {
+    Effectors say;
+    say.say = InlineString<64>("m" + std::to_string(i));
+    if (i < 4) scenario.sim.act(left1, say);
+    say.say = InlineString<64>("other" + std::to_string(i));
+    if (i < 4) scenario.sim.act(left3, say);
+    scenario.step();
+    for (const protocol::Heard& heard : scenario.sim.sense(left2)->heard)
+      atMate.emplace_back(heard.message.view());
+    for (const protocol::Heard& heard : scenario.sim.sense(right1)->heard) {
+      atOpponent.emplace_back(heard.message.view());
+    }
+    for (const protocol::Heard& heard : scenario.sim.sense(left1)->heard) self += heard.self ? 1 : 0;
+  }
+  EXPECT_THAT(atMate, ::testing::ElementsAre("m0", "m2")) << "the first speaker of a cycle wins";
+  EXPECT_THAT(atOpponent, ::testing::ElementsAre("m0", "m2"));
+  EXPECT_EQ(self, 4) << "the own message takes no capacity";
+}
+
+TEST(Hear, MessagesThatAreTooLongOrHoldWrongCharactersAreDropped) {
+  Scenario scenario;
+  const AgentHandle agent = scenario.add(TeamSide::Left, 1);
+  for (const char* text : {"123456789012345678901", "a b", "a(b", "", "\x7f"}) {
+    Effectors say;
+    say.say = InlineString<64>(text);
+    scenario.sim.act(agent, say);
+    scenario.step(2);
+    EXPECT_TRUE(scenario.sim.sense(agent)->heard.empty()) << text;
+  }
+  Effectors say;
+  say.say = InlineString<64>("12345678901234567890");
+  scenario.sim.act(agent, say);
+  scenario.step(2);
+  EXPECT_EQ(scenario.sim.sense(agent)->heard.size(), 1U);
+}
+
+TEST(Hear, LabelsAndScoresCanBeSwitchedOff) {
+  Settings settings = quietSettings();
+  settings.labelMessages = false;
+  settings.reportScore = false;
+  Scenario scenario(settings);
+  const AgentHandle agent = scenario.add(TeamSide::Left, 1);
+  Effectors say;
+  say.say = InlineString<64>("x");
+  scenario.sim.act(agent, say);
+  scenario.step(2);
+  const std::string text = textOf(scenario.sim, agent);
+  EXPECT_NE(text.find("(hear 0.00 self x)"), std::string::npos) << text;
+  EXPECT_EQ(text.find("(sl "), std::string::npos) << text;
+}
+
+// A pseudo-random agent, so that robots move and fall.
+Effectors flail(Random& random) {
+  Effectors effectors;
+  for (std::size_t j = 0; j < model::kJointCount; ++j) {
+    effectors.setSpeed(model::jointAt(j), random.uniform(-3.0, 3.0));
+  }
+  return effectors;
+}
+
+TEST(Text, CarriesEveryBitOfTheValues) {
+  Simulation simulation(Settings{}, 11);
+  const AgentHandle agent = introduce(simulation, 4, 1, "A");
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    simulation.act(agent, flail(random));
+    simulation.step();
+    const Percept& direct = *simulation.sense(agent);
+    std::string text;
+    protocol::writePercept(direct, text);
+    Percept read;
+    protocol::parsePercept(text, read);
+    EXPECT_EQ(read.unknownTokens, 0);
+    ASSERT_EQ(read.time, direct.time);
+    ASSERT_EQ(read.joints, direct.joints);
+    ASSERT_EQ(read.gyro, direct.gyro);
+    ASSERT_EQ(read.accelerometer, direct.accelerometer);
+    ASSERT_EQ(read.vision.has_value(), direct.vision.has_value());
+    if (direct.vision) {
+      ASSERT_EQ(read.vision->lines.size(), direct.vision->lines.size());
+      for (std::size_t k = 0; k < direct.vision->lines.size(); ++k) {
+        ASSERT_EQ(read.vision->lines[k].begin.azimuth, direct.vision->lines[k].begin.azimuth);
+      }
+    }
+    std::string again;
+    protocol::writePercept(read, again);
+    ASSERT_EQ(again, text);
+  }
+}
+
+TEST(State, RestoringContinuesBitExactly) {
+  Simulation original(Settings{}, 21);
+  const AgentHandle a = introduce(original, 0, 1, "A");
+  const AgentHandle b = introduce(original, 2, 1, "B");
+  Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    original.act(a, flail(random));
+    original.step();
+  }
+  original.act(b, flail(random));  // a message that waits is part of the state
+  const std::vector<std::uint8_t> state = original.save();
+  Simulation copy(Settings{}, 99);
+  copy.restore(state);
+  Random randomCopy = random;
+  for (int i = 0; i < 60; ++i) {
+    original.act(a, flail(random));
+    copy.act(a, flail(randomCopy));
+    original.step();
+    copy.step();
+    ASSERT_EQ(original.signature(), copy.signature()) << i;
+    ASSERT_EQ(textOf(original, a), textOf(copy, a)) << i;
+    ASSERT_EQ(textOf(original, b), textOf(copy, b)) << i;
+  }
+  EXPECT_THROW(copy.restore(std::span(state).first(state.size() / 2)), std::runtime_error);
+  EXPECT_THROW(copy.restore({}), std::runtime_error);
+}
+
+// Plays a few seconds with whole teams that arrive in the given order, and returns everything they sense.
+std::string matchOf(const std::vector<std::size_t>& arrival) {
+  struct Who {
+    int type;
+    int unum;
+    const char* team;
+  };
+  const std::vector<Who> whos = {{0, 1, "B"}, {1, 2, "B"}, {2, 1, "A"}, {4, 2, "A"}};
+  const Settings settings;
+  std::vector<std::unique_ptr<Lobby>> lobbies;
+  std::vector<Effectors::Init> inits;
+  std::string log;
+  for (const std::size_t i : arrival) {
+    lobbies.push_back(std::make_unique<Lobby>(settings, 5));
+    const Percept* answer = lobbies.back()->receive(sceneMessage(whos[i].type));
+    EXPECT_NE(answer, nullptr);
+    EXPECT_EQ(lobbies.back()->receive(initMessage(whos[i].unum, whos[i].team)), nullptr);
+    EXPECT_TRUE(lobbies.back()->ready());
+    inits.push_back(*lobbies.back()->init());
+  }
+  Simulation simulation(settings, 5);
+  std::vector<AgentHandle> agents;
+  for (const std::size_t i : entryOrder(settings, inits)) {
+    agents.push_back(simulation.enter(*lobbies[i]->scene(), *lobbies[i]->init()));
+  }
+  Random random(2);
+  for (int i = 0; i < 100; ++i) {
+    for (const AgentHandle agent : agents) {
+      Effectors effectors = flail(random);
+      if (i == 3) effectors.beam = Pose2(-2.0 - agent, 1.0, 0.0);
+      simulation.act(agent, effectors);
+    }
+    simulation.step();
+    for (const AgentHandle agent : agents) log += textOf(simulation, agent) + "\n";
+  }
+  return log;
+}
+
+TEST(State, MatchesDependOnTheSeedAndNotOnTheOrderOfArrival) {
+  const std::string first = matchOf({0, 1, 2, 3});
+  EXPECT_EQ(first, matchOf({0, 1, 2, 3}));
+  EXPECT_EQ(first, matchOf({3, 1, 0, 2}));
+}
+
+TEST(State, TwoSimulationsInOneProcessDoNotDisturbEachOther) {
+  Simulation alone(Settings{}, 8);
+  const AgentHandle agent = introduce(alone, 0, 1, "A");
+  Random random(4);
+  for (int i = 0; i < 40; ++i) {
+    alone.act(agent, flail(random));
+    alone.step();
+  }
+  Simulation first(Settings{}, 8);
+  Simulation second(Settings{}, 9);
+  const AgentHandle inFirst = introduce(first, 0, 1, "A");
+  const AgentHandle inSecond = introduce(second, 3, 1, "A");
+  Random again(4);
+  Random other(6);
+  for (int i = 0; i < 40; ++i) {
+    second.act(inSecond, flail(other));
+    second.step();
+    first.act(inFirst, flail(again));
+    first.step();
+  }
+  EXPECT_EQ(alone.signature(), first.signature());
+  EXPECT_EQ(textOf(alone, agent), textOf(first, inFirst));
+}
+
+}  // namespace
+}  // namespace nonet::sim::test
