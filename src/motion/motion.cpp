@@ -38,7 +38,7 @@ struct Motion::Stages {
          const std::string& skillFolder)
       : parameters(motionParameters),
         library(skillFolder, motionParameters.skills),
-        player(robot, library),
+        player(robot, library, WalkEngine::standAngles(robot, motionParameters.sets.goToTarget)),
         walk(robot, motionParameters.sets, motionParameters.selection),
         fall(library, motionParameters.fall),
         head(robot, motionParameters.head) {}
@@ -124,6 +124,10 @@ const MotionState& Motion::state() const {
 }
 const WalkControl& Motion::walk() const {
   return stages_->walk;
+}
+
+const FallControl& Motion::fall() const {
+  return stages_->fall;
 }
 
 const JointTargets& Motion::update(const world::WorldState& world, const MotionRequest& request,

@@ -62,15 +62,16 @@ std::string formatSkills(std::string_view text, const std::string& file) {
       blank = !result.empty();
       return;
     }
-    int closing = 0;  // brackets that close before anything opens in this line
-    int depth = 0;
-    for (const SkillToken& token : line) {
-      if (isSymbol(token, "{")) ++depth;
-      if (isSymbol(token, "}") && --depth < closing) closing = depth;
+    int closing = 0;  // brackets with which the line begins
+    while (static_cast<std::size_t>(closing) < line.size() &&
+           isSymbol(line[static_cast<std::size_t>(closing)], "}")) {
+      ++closing;
     }
+    int depth = 0;
+    for (const SkillToken& token : line) depth += isSymbol(token, "{") ? 1 : isSymbol(token, "}") ? -1 : 0;
     if (blank) result += "\n";
     blank = false;
-    result += formatLine(line, std::max(0, indent + closing));
+    result += formatLine(line, std::max(0, indent - closing));
     indent = std::max(0, indent + depth);
     line.clear();
   };

@@ -251,6 +251,8 @@ class Parser {
     while (!accept("}")) {
       if (accept("foot")) {
         instruction.feet.push_back(footGoal(side(), "at"));
+      } else if (accept("stand")) {
+        instruction.stand = true;
       } else {
         joints(instruction, true);
       }

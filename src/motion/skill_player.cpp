@@ -57,8 +57,9 @@ Vector3 hermite(const PointAt& point, int count, double share) {
 
 }  // namespace
 
-SkillPlayer::SkillPlayer(const model::RobotModel& model, const SkillLibrary& library)
-    : model_(&model), library_(&library) {}
+SkillPlayer::SkillPlayer(const model::RobotModel& model, const SkillLibrary& library,
+                         const model::JointArray& stand)
+    : model_(&model), library_(&library), stand_(stand) {}
 
 bool SkillPlayer::start(std::string_view name, bool mirrored, const model::JointArray& commanded,
                         const std::optional<Vector2>& p_RBall) {
@@ -181,11 +182,11 @@ void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const wor
   for (std::size_t i = 0; i < model::kJointCount; ++i) {
     if (targets.stiffness[i] == 0.0) from_[i] = world.body.joints[i];
   }
+  chooseGoals(instruction, mirrored);
   if (instruction.kind == Instruction::Kind::MoveAt) {
     double farthest = 0.0;
-    for (const JointGoal& raw : instruction.joints) {
-      const JointGoal goal = mirrored ? mirroredGoal(raw) : raw;
-      farthest = std::max(farthest, std::abs(goal.angle - from_[model::index(goal.joint)]));
+    for (std::size_t i = 0; i < model::kJointCount; ++i) {
+      if ((moves_ >> i) & 1U) farthest = std::max(farthest, std::abs(to_[i] - from_[i]));
     }
     duration_ = farthest / instruction.value;
   }
@@ -207,13 +208,27 @@ void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const wor
   }
 }
 
-void SkillPlayer::place(const Instruction& instruction, bool mirrored, double share,
-                        JointTargets& targets) const {
+void SkillPlayer::chooseGoals(const Instruction& instruction, bool mirrored) {
+  moves_ = 0;
+  if (instruction.kind != Instruction::Kind::MoveOver && instruction.kind != Instruction::Kind::MoveAt)
+    return;
+  if (instruction.stand) {
+    for (const model::JointSpec& joint : model_->joints()) moves_ |= 1U << model::index(joint.id);
+    to_ = stand_;
+  }
   for (const JointGoal& raw : instruction.joints) {
     const JointGoal goal = mirrored ? mirroredGoal(raw) : raw;
     if (!model_->has(goal.joint)) continue;
-    const std::size_t i = model::index(goal.joint);
-    targets.angles[i] = from_[i] + share * (goal.angle - from_[i]);
+    to_[model::index(goal.joint)] = goal.angle;
+    moves_ |= 1U << model::index(goal.joint);
+  }
+}
+
+void SkillPlayer::place(const Instruction& instruction, bool mirrored, double share,
+                        JointTargets& targets) const {
+  for (std::size_t i = 0; i < model::kJointCount; ++i) {
+    if (((moves_ >> i) & 1U) == 0) continue;
+    targets.angles[i] = from_[i] + share * (to_[i] - from_[i]);
     if (targets.stiffness[i] == 0.0) targets.stiffness[i] = 1.0;
   }
   if (!instruction.feet.empty()) placeFoot(instruction, mirrored, share, targets);

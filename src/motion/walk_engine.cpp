@@ -53,6 +53,13 @@ void WalkEngine::reset() {
   feetPlaced_ = false;
 }
 
+model::JointArray WalkEngine::standAngles(const model::RobotModel& model, const WalkParameters& parameters) {
+  WalkEngine engine(model);
+  JointTargets targets;
+  engine.update(world::BodyState{}, parameters, Pose2{}, false, targets);
+  return targets.angles;
+}
+
 void WalkEngine::update(const world::BodyState& body, const WalkParameters& parameters, const Pose2& speed,
                         bool walk, JointTargets& targets) {
   parameters_ = parameters;

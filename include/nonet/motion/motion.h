@@ -6,6 +6,7 @@
 #include <string>
 
 #include "nonet/model/robot_model.h"
+#include "nonet/motion/fall_control.h"
 #include "nonet/motion/parameters.h"
 #include "nonet/motion/request.h"
 #include "nonet/motion/walk_control.h"
@@ -30,6 +31,7 @@ class Motion {
   const MotionState& state() const;
   /// For measurements and drawings.
   const WalkControl& walk() const;
+  const FallControl& fall() const;
 
  private:
   struct Stages;

@@ -85,6 +85,7 @@ struct Instruction {
   std::vector<JointGoal> joints;
   std::vector<FootGoal> feet;
   bool fromBall = false;
+  bool stand = false;  // every joint that has no goal of its own goes to the stand
   int condition = -1;
   int target = 0;
   int count = 0;

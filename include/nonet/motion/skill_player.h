@@ -19,7 +19,9 @@ class SkillPlayer {
  public:
   enum class Result : std::uint8_t { Running, Finished, Failed };
 
-  SkillPlayer(const model::RobotModel& model, const SkillLibrary& library);
+  /// `stand`: the angles that the target "stand" means.
+  SkillPlayer(const model::RobotModel& model, const SkillLibrary& library,
+              const model::JointArray& stand = {});
 
   /// False if there is no such skill. Begins at the angles in `commanded` (what the joints were told last).
   /// `p_RBall`: where curves "from ball" take the ball to be (robot frame on the ground, m); by default where
@@ -48,12 +50,14 @@ class SkillPlayer {
   double quantity(Quantity quantity, bool mirrored, const world::WorldState& world) const;
   void begin(const Instruction& instruction, bool mirrored, const world::WorldState& world,
              const JointTargets& targets);
+  void chooseGoals(const Instruction& instruction, bool mirrored);
   void place(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
   void placeFoot(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
   Frame& top() { return frames_[static_cast<std::size_t>(depth_ - 1)]; }
 
   const model::RobotModel* model_;
   const SkillLibrary* library_;
+  model::JointArray stand_;
   std::array<Frame, SkillLibrary::kDeepestCall + 1> frames_{};
   int depth_ = 0;
   double time_ = 0.0;                  // since the start of the outermost skill, s
@@ -61,6 +65,8 @@ class SkillPlayer {
   double inInstruction_ = 0.0;         // s
   double duration_ = 0.0;              // of the present instruction, s
   model::JointArray from_{};           // angles at its begin
+  model::JointArray to_{};             // at its end, where `moves_` says so
+  std::uint32_t moves_ = 0;            // bit per joint
   FootPoses feetFrom_{};               // sole poses at its begin
   std::optional<Vector2> ball_;        // given at the start
   Vector3 p_RBall_ = Vector3::Zero();  // in the torso frame, m

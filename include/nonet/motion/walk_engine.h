@@ -49,6 +49,9 @@ class WalkEngine {
   /// Duration of one step in whole cycles, s.
   static double stepTime(const WalkParameters& parameters);
 
+  /// The joint angles of its stand (head joints 0).
+  static model::JointArray standAngles(const model::RobotModel& model, const WalkParameters& parameters);
+
   /// Stands with both feet on the ground.
   void reset();
   bool standing() const { return mode_ == Mode::Standing; }
