@@ -1,0 +1,301 @@
+#include "nonet/motion/walk_engine.h"
+
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "nonet/math/random.h"
+#include "nonet/model/kinematics.h"
+
+namespace nonet::motion {
+namespace {
+
+using model::Side;
+
+// A body that follows every target at once and stays upright: the engine without physics.
+class Walker {
+ public:
+  explicit Walker(int type, const WalkParameters& parameters = {})
+      : parameters(parameters), model(model::robotModel(type)), engine(model) {
+    body.cycleTime = kCycleTime;
+  }
+
+  void step(const Pose2& speed, bool walk = true) {
+    previous = targets.angles;
+    engine.update(body, parameters, speed, walk, targets);
+    body.joints = targets.angles;
+    model::forwardKinematics(model, body.joints, body.bodies);
+    body.p_RCom = model::centerOfMass(model, body.bodies);
+    X_FW = X_FW * engine.odometryStep();
+  }
+  void run(const Pose2& speed, int cycles, bool walk = true) {
+    for (int i = 0; i < cycles; ++i) step(speed, walk);
+  }
+  double largestChange() const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < model::kJointCount; ++i) {
+      largest = std::max(largest, std::abs(targets.angles[i] - previous[i]));
+    }
+    return largest;
+  }
+  Pose3 sole(Side side) const { return model::solePose(model, body.bodies, side); }
+
+  WalkParameters parameters;
+  const model::RobotModel& model;
+  WalkEngine engine;
+  world::BodyState body;
+  JointTargets targets;
+  model::JointArray previous{};
+  Pose2 X_FW;  // walk frame on the ground
+};
+
+TEST(WalkParameters, AreManyAndDescribed) {
+  const auto list = config::listParameters(WalkParameters{});
+  EXPECT_GE(list.size(), 40U);
+  std::set<std::string> keys;
+  for (const auto& parameter : list) {
+    EXPECT_TRUE(keys.insert(parameter.key).second) << parameter.key;
+    EXPECT_FALSE(parameter.declaration.text.empty()) << parameter.key;
+    EXPECT_GE(parameter.value, parameter.declaration.range.low) << parameter.key;
+    EXPECT_LE(parameter.value, parameter.declaration.range.high) << parameter.key;
+    if (!parameter.declaration.searchRange) continue;
+    EXPECT_GE(parameter.declaration.searchRange->low, parameter.declaration.range.low) << parameter.key;
+    EXPECT_LE(parameter.declaration.searchRange->high, parameter.declaration.range.high) << parameter.key;
+  }
+}
+
+TEST(WalkParameters, BlendGoesFromOneToTheOther) {
+  WalkParameters from;
+  WalkParameters to;
+  int i = 0;
+  for (auto& field : config::fieldsOf(to)) *field.real += 0.01 * ++i;
+  const auto at = [&](double share) { return config::listParameters(blend(from, to, share)); };
+  const auto begin = config::listParameters(from);
+  const auto end = config::listParameters(to);
+  const auto low = at(0.0);
+  const auto middle = at(0.25);
+  const auto high = at(1.0);
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    EXPECT_DOUBLE_EQ(low[k].value, begin[k].value);
+    EXPECT_DOUBLE_EQ(high[k].value, end[k].value);
+    EXPECT_NEAR(middle[k].value, 0.75 * begin[k].value + 0.25 * end[k].value, 1e-12);
+  }
+}
+
+TEST(WalkEngine, StandsSymmetricallyAtItsHeight) {
+  for (int type = 0; type < model::kRobotTypeCount; ++type) {
+    Walker walker(type);
+    walker.run(Pose2{}, 5, false);
+    EXPECT_TRUE(walker.engine.standing());
+    const Pose3 left = walker.sole(Side::Left);
+    const Pose3 right = walker.sole(Side::Right);
+    EXPECT_NEAR(left.translation().z(), -walker.parameters.zTorso * walker.model.standingHeight(), 1e-9);
+    EXPECT_NEAR(left.translation().x(), walker.parameters.xOffset, 1e-9);
+    EXPECT_NEAR(left.translation().y() - right.translation().y(), walker.parameters.ySep, 1e-9);
+    EXPECT_LT((left.translation().cwiseProduct(Vector3(1, -1, 1)) - right.translation()).norm(), 1e-9);
+    EXPECT_TRUE(left.linear().isIdentity(1e-9));
+  }
+}
+
+// In the walk frame on the ground the stance foot does not move, whatever the speed (no slipping is planned).
+// The torso's own motion over the walk frame is the pendulum's, so it is taken out by the other foot at rest:
+// compare through the torso offset that both soles share while standing still in W.
+TEST(WalkEngine, StanceFootStaysOnTheGround) {
+  WalkParameters parameters;
+  parameters.swayFactor = 0.0;  // torso exactly over the walk frame
+  parameters.xPendulum = 0.0;
+  Walker walker(0, parameters);
+  Random random(3);
+  Pose2 speed;
+  Side stance = Side::Left;
+  Pose2 ground;
+  bool known = false;
+  for (int i = 0; i < 600; ++i) {
+    if (i % 23 == 0) {
+      speed = Pose2(random.uniform(-0.5, 0.5), random.uniform(-0.3, 0.3), random.uniform(-1.5, 1.5));
+    }
+    walker.step(speed);
+    if (walker.engine.trace().reach != model::Reach::Exact) {
+      known = false;
+      continue;
+    }
+    const Side now = walker.engine.trace().stance;
+    const Pose3 X_RS = walker.sole(now);
+    const double yaw = std::atan2(X_RS.linear()(1, 0), X_RS.linear()(0, 0));
+    const Pose2 foot =
+        walker.X_FW * Pose2(X_RS.translation().x() - parameters.xOffset, X_RS.translation().y(), yaw);
+    if (known && now == stance) {
+      EXPECT_LT((foot.translation - ground.translation).norm(), 1e-6) << i;
+      EXPECT_LT(std::abs(wrapAngle(foot.rotation - ground.rotation)), 1e-6) << i;
+    }
+    stance = now;
+    ground = foot;
+    known = true;
+  }
+}
+
+// Position and velocity of the pendulum match when the feet change: sideways the torso's motion relative to
+// the middle of the feet has no kink, which shows in second differences as small as inside a step.
+TEST(WalkEngine, PendulumMatchesAtTheChangeOfFeet) {
+  WalkParameters parameters;
+  parameters.phiLength = 0.4;  // 20 cycles: smooth enough to see a kink
+  parameters.zStep = 0.0;
+  Walker walker(0, parameters);
+  walker.run(Pose2(0.05, 0.0, 0.0), 200);
+  std::vector<double> y;
+  std::vector<int> changes;
+  Side stance = walker.engine.trace().stance;
+  for (int i = 0; i < 200; ++i) {
+    walker.step(Pose2(0.05, 0.0, 0.0));
+    y.push_back(-0.5 *
+                (walker.sole(Side::Left).translation().y() + walker.sole(Side::Right).translation().y()));
+    if (walker.engine.trace().stance != stance) changes.push_back(i);
+    stance = walker.engine.trace().stance;
+  }
+  ASSERT_GE(changes.size(), 5U);
+  double speed = 0.0;
+  for (std::size_t i = 1; i < y.size(); ++i) speed = std::max(speed, std::abs(y[i] - y[i - 1]));
+  ASSERT_GT(speed, 1e-4);
+  const double k = std::sqrt(kGravity / parameters.pendulumHeight);
+  for (const int c : changes) {
+    if (c < 2 || c + 2 >= static_cast<int>(y.size())) continue;
+    const auto at = static_cast<std::size_t>(c);
+    // Acceleration of the pendulum is at most k^2 times its distance from the foot; a jump of the velocity by
+    // only a tenth of it would be far more.
+    const double bend = std::abs(y[at + 1] - 2.0 * y[at] + y[at - 1]);
+    EXPECT_LT(bend, 2.0 * k * k * 0.5 * parameters.ySep * kCycleTime * kCycleTime);
+    EXPECT_GT((y[at + 1] - y[at]) * (y[at] - y[at - 1]), 0.0);  // it swings on in the same direction
+  }
+}
+
+TEST(WalkEngine, ReachesTheSpeedAskedFor) {
+  Walker walker(0);
+  const Pose2 wish(0.2, 0.1, 0.4);
+  walker.run(wish, 200);
+  const Pose2 begin = walker.X_FW;
+  const int cycles = 60;
+  double turned = 0.0;
+  for (int i = 0; i < cycles; ++i) {
+    walker.step(wish);
+    turned += walker.engine.odometryStep().rotation;
+  }
+  EXPECT_NEAR(turned, wish.rotation * cycles * kCycleTime, 1e-6);
+  // On a circle: chord of the arc walked.
+  const double arc = wish.translation.norm() * cycles * kCycleTime;
+  const double chord = 2.0 * arc / turned * std::sin(0.5 * turned);
+  EXPECT_NEAR((walker.X_FW.translation - begin.translation).norm(), chord, 1e-3);
+}
+
+TEST(WalkEngine, CombinedStepsStayWithinTheSet) {
+  Walker walker(0);
+  Random random(5);
+  for (int k = 0; k < 40; ++k) {
+    const Pose2 wish(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
+    walker.run(wish, 80);
+    const Pose2& step = walker.engine.trace().step;
+    const WalkParameters& p = walker.parameters;
+    const double maxX = step.translation.x() > 0.0 ? p.maxStepX : p.maxStepXBack;
+    const double e = p.combineExponent;
+    const double norm = std::pow(std::abs(step.translation.x()) / maxX, e) +
+                        std::pow(std::abs(step.translation.y()) / p.maxStepY, e) +
+                        std::pow(std::abs(step.rotation) / p.maxStepTheta, e);
+    EXPECT_LT(norm, 1.0 + 1e-6);
+  }
+}
+
+TEST(WalkEngine, StopsWithTheFeetTogether) {
+  Random random(11);
+  for (int k = 0; k < 20; ++k) {
+    Walker walker(k % model::kRobotTypeCount);
+    walker.run(Pose2(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)), 50 + k);
+    EXPECT_FALSE(walker.engine.standing());
+    int cycles = 0;
+    while (!walker.engine.standing() && cycles < 200) {
+      walker.step(Pose2{}, false);
+      ++cycles;
+    }
+    EXPECT_LT(cycles, 100);
+    const Pose3 left = walker.sole(Side::Left);
+    const Pose3 right = walker.sole(Side::Right);
+    EXPECT_NEAR(left.translation().x(), right.translation().x(), 1e-3);
+    EXPECT_NEAR(left.translation().z(), right.translation().z(), 1e-6);
+    EXPECT_NEAR(left.translation().y() - right.translation().y(), walker.parameters.ySep, 2e-3);
+  }
+}
+
+// No jump at any moment: speeds and sets change at random cycles. The bound is what the steady gait itself
+// moves in one cycle, with a margin.
+TEST(WalkEngine, NothingJumpsWhenSpeedOrSetChange) {
+  WalkParameters other;
+  other.zTorso = 0.8;
+  other.ySep = 0.13;
+  other.zStep = 0.05;
+  other.phiLength = 0.2;
+  other.torsoPitch = 0.1;
+  const WalkParameters sets[2] = {WalkParameters{}, other};
+  double steady = 0.0;
+  for (const WalkParameters& set : sets) {
+    for (int direction = 0; direction < 8; ++direction) {
+      Walker walker(0, set);
+      const Pose2 wish(std::cos(direction * kPi / 4), std::sin(direction * kPi / 4), direction % 3 - 1.0);
+      walker.run(wish, 100);
+      for (int i = 0; i < 50; ++i) {
+        walker.step(wish);
+        steady = std::max(steady, walker.largestChange());
+      }
+    }
+  }
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Walker walker(0);
+    Random random(seed);
+    walker.run(Pose2{}, 10, false);
+    WalkParameters from = sets[0];
+    int target = 0;
+    double share = 1.0;
+    Pose2 speed;
+    bool walk = true;
+    double largest = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+      if (random.below(30) == 0) {
+        speed = Pose2(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3));
+        walk = random.below(4) != 0;
+      }
+      if (random.below(40) == 0) {
+        from = walker.parameters;
+        target = 1 - target;
+        share = 0.0;
+      }
+      share = std::min(1.0, share + kCycleTime / 0.1);
+      walker.parameters = blend(from, sets[target], share);
+      walker.step(speed, walk);
+      largest = std::max(largest, walker.largestChange());
+    }
+    EXPECT_LT(largest, 1.5 * steady);
+  }
+}
+
+// Outside what a physical reading would allow nothing breaks: finite angles within the limits for random sets
+// from the whole declared ranges.
+TEST(WalkEngine, SurvivesEverySetWithinTheRanges) {
+  Random random(17);
+  for (int k = 0; k < 300; ++k) {
+    WalkParameters parameters;
+    for (auto& field : config::fieldsOf(parameters)) {
+      *field.real = random.uniform(field.declaration.range.low, field.declaration.range.high);
+    }
+    Walker walker(k % model::kRobotTypeCount, parameters);
+    for (int i = 0; i < 60; ++i) {
+      walker.body.pitch = random.uniform(-1.5, 1.5);
+      walker.body.roll = random.uniform(-1.5, 1.5);
+      walker.body.gyro = Vector3(random.normal(), random.normal(), random.normal()) * 5.0;
+      walker.step(Pose2(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9)), i % 20 < 15);
+      for (const model::JointSpec& joint : walker.model.joints()) {
+        ASSERT_TRUE(std::isfinite(walker.targets.angles[model::index(joint.id)])) << k << " " << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nonet::motion
