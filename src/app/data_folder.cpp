@@ -18,7 +18,7 @@ std::string dataFolder() {
   std::error_code error;
   for (fs::path folder = fs::path(executablePath()).parent_path(); folder.has_relative_path();
        folder = folder.parent_path()) {
-    if (fs::is_directory(folder / "skills", error) && fs::is_directory(folder / "params", error)) {
+    if (fs::is_directory(folder / "skills", error)) {
       return folder.string();
     }
   }
