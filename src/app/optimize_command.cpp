@@ -61,7 +61,7 @@ int listTasks() {
                fmt::join(task->searchedKeys(), ", "));
   }
   fmt::print("\nParameters that may be moved, with the range where the search starts:\n");
-  for (const auto& view : config::listParameters(agent::AgentParameters{})) {
+  for (const auto& view : config::listParameters(lab::defaultParameters(dataFolder()))) {
     const auto& range = view.declaration.searchRange;
     if (!range) continue;
     fmt::print("  {} = {} ({} .. {} {}) {}\n", view.key, view.value, range->low, range->high,
@@ -98,8 +98,9 @@ int repeatFile(const OptimizeArguments& arguments) {
 int acceptFile(OptimizeArguments& arguments) {
   lab::OptimizationConfig& config = arguments.config;
   const lab::Task& task = lab::findTask(arguments.task);
-  agent::AgentParameters parameters;
+  agent::AgentParameters parameters = lab::defaultParameters(dataFolder());
   config::overlayFile(parameters, arguments.accept);
+  task.prepare(parameters);
   std::vector<lab::Provenance> origins = lab::readProvenance(arguments.accept);
   lab::Provenance origin;
   for (const lab::Provenance& known : origins) {
@@ -119,7 +120,8 @@ int acceptFile(OptimizeArguments& arguments) {
   lab::replaceProvenance(origins, origin);
   if (!arguments.out.empty()) {
     const lab::SearchSpace space(parameters, config.keys.empty() ? task.searchedKeys() : config.keys);
-    lab::writeAtomically(arguments.out, lab::learnedToml(parameters, space.keys(), origins));
+    lab::writeAtomically(arguments.out, lab::learnedToml(parameters, lab::defaultParameters(dataFolder()),
+                                                         space.keys(), origins));
   }
   return 0;
 }
@@ -169,7 +171,8 @@ void optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::s
 lab::OptimizationRun openRun(OptimizeArguments& arguments, bool generationsGiven) {
   if (arguments.resume) {
     return lab::OptimizationRun::resume(
-        arguments.out, generationsGiven ? std::optional<int>(arguments.config.generations) : std::nullopt);
+        arguments.out, dataFolder(),
+        generationsGiven ? std::optional<int>(arguments.config.generations) : std::nullopt);
   }
   lab::OptimizationConfig& config = arguments.config;
   config.task = arguments.task;
@@ -178,7 +181,7 @@ lab::OptimizationRun openRun(OptimizeArguments& arguments, bool generationsGiven
   config.date = today();
   config.version = NONET_VERSION;
   lab::setStart(config, dataFolder(), arguments.parameterFiles);
-  return lab::OptimizationRun::create(arguments.out, config);
+  return lab::OptimizationRun::create(arguments.out, config, dataFolder());
 }
 
 int runMpi(OptimizeArguments& arguments, bool generationsGiven) {
@@ -293,7 +296,7 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
   report->add_option("folder", arguments->reportFolder, "Folder of a run")->required();
   command->callback([arguments, &exitCode, report, generations] {
     if (report->parsed()) {
-      fmt::print("{}\n", lab::writeOptimizationReport(arguments->reportFolder));
+      fmt::print("{}\n", lab::writeOptimizationReport(arguments->reportFolder, dataFolder()));
     } else {
       exitCode = runOptimize(*arguments, generations->count() > 0);
     }

@@ -14,6 +14,7 @@
 #include <toml++/toml.h>
 
 #include "nonet/config/parameters.h"
+#include "nonet/lab/optimization_config.h"
 
 namespace nonet::lab {
 
@@ -134,12 +135,11 @@ void replaceProvenance(std::vector<Provenance>& list, const Provenance& origin) 
   list.push_back(origin);
 }
 
-std::string learnedToml(const agent::AgentParameters& parameters,
+std::string learnedToml(const agent::AgentParameters& parameters, const agent::AgentParameters& defaults,
                         const std::vector<std::string>& searchedKeys,
                         const std::vector<Provenance>& origins) {
   std::set<std::string> tables;
   for (const std::string& key : searchedKeys) tables.insert(tableOf(key));
-  const agent::AgentParameters defaults;
   agent::AgentParameters copy = parameters;
   auto base = defaults;
   const auto fields = config::fieldsOf(copy);
@@ -190,7 +190,7 @@ Measurement measure(const Task& task, const agent::AgentParameters& parameters,
 }
 
 std::vector<Repetition> repeatLearned(const std::string& file, const std::string& dataFolder, int threads) {
-  agent::AgentParameters parameters;
+  agent::AgentParameters parameters = defaultParameters(dataFolder);
   config::overlayFile(parameters, file);
   std::vector<Repetition> repetitions;
   for (const Provenance& origin : readProvenance(file)) {

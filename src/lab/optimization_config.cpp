@@ -81,8 +81,8 @@ std::vector<std::string> OptimizationConfig::searchedKeys() const {
   return keys.empty() ? findTask(task).searchedKeys() : keys;
 }
 
-agent::AgentParameters OptimizationConfig::startParameters() const {
-  agent::AgentParameters start;
+agent::AgentParameters OptimizationConfig::startParameters(const std::string& dataFolder) const {
+  agent::AgentParameters start = defaultParameters(dataFolder);
   config::overlayText(start, parameters, "start parameters of the run");
   findTask(task).prepare(start);
   return start;
@@ -92,9 +92,16 @@ TaskSettings OptimizationConfig::taskSettings(const std::string& dataFolder) con
   return {.robotType = robotType, .quickSolver = quickSolver, .dataFolder = dataFolder};
 }
 
+agent::AgentParameters defaultParameters(const std::string& dataFolder) {
+  agent::AgentParameters defaults;
+  const std::string skills = dataFolder + "/skills";
+  if (std::filesystem::is_directory(skills)) defaults.motion.skills = motion::declareSkillParameters(skills);
+  return defaults;
+}
+
 void setStart(OptimizationConfig& config, const std::string& dataFolder,
               const std::vector<std::string>& files) {
-  agent::AgentParameters start;
+  agent::AgentParameters start = defaultParameters(dataFolder);
   config.inherited.clear();
   const auto overlay = [&](const std::string& file) {
     config::overlayFile(start, file);
@@ -116,7 +123,7 @@ std::vector<std::uint64_t> trialSeeds(std::uint64_t runSeed, int generation, int
 
 Objective makeObjective(const OptimizationConfig& config, const std::string& dataFolder) {
   const Task& task = findTask(config.task);
-  auto space = std::make_shared<const SearchSpace>(config.startParameters(), config.searchedKeys());
+  auto space = std::make_shared<const SearchSpace>(config.startParameters(dataFolder), config.searchedKeys());
   return [&task, space = std::move(space), settings = config.taskSettings(dataFolder)](const Job& job) {
     return task.evaluate(space->apply(job.point), job.seed, settings).fitness;
   };

@@ -86,22 +86,24 @@ Eigen::VectorXd rankingFitness(const std::vector<std::vector<double>>& values, s
 
 }  // namespace
 
-OptimizationRun::OptimizationRun(std::string folder, const OptimizationConfig& config)
+OptimizationRun::OptimizationRun(std::string folder, const OptimizationConfig& config, std::string dataFolder)
     : folder_(std::move(folder)),
       config_(config),
-      space_(config.startParameters(), config.searchedKeys()),
+      dataFolder_(std::move(dataFolder)),
+      space_(config.startParameters(dataFolder_), config.searchedKeys()),
       optimizer_(space_.start(), cmaSettings(config, space_), config.restarts) {
   if (config.trials < 1 || config.validationTrials < 1 || config.validationEvery < 1)
     throw std::runtime_error("trials, validation trials and the gap between validations must be at least 1");
   incumbent_.point = space_.start();
 }
 
-OptimizationRun OptimizationRun::create(const std::string& folder, const OptimizationConfig& config) {
+OptimizationRun OptimizationRun::create(const std::string& folder, const OptimizationConfig& config,
+                                        const std::string& dataFolder) {
   if (fs::exists(folder + kConfig)) {
     throw std::runtime_error(
         fmt::format("{} holds a run already: continue it with --resume or choose another folder", folder));
   }
-  OptimizationRun run(folder, config);
+  OptimizationRun run(folder, config, dataFolder);
   fs::create_directories(folder);
   fs::remove(folder + kCheckpoint);
   std::ofstream(folder + kGenerations, std::ios::binary | std::ios::trunc);
@@ -109,13 +111,14 @@ OptimizationRun OptimizationRun::create(const std::string& folder, const Optimiz
   return run;
 }
 
-OptimizationRun OptimizationRun::resume(const std::string& folder, std::optional<int> generations) {
+OptimizationRun OptimizationRun::resume(const std::string& folder, const std::string& dataFolder,
+                                        std::optional<int> generations) {
   OptimizationConfig config = OptimizationConfig::fromJson(readJson(folder + kConfig));
   if (generations && *generations != config.generations) {
     config.generations = *generations;
     writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
   }
-  OptimizationRun run(folder, config);
+  OptimizationRun run(folder, config, dataFolder);
   // Killed before the first checkpoint: from the beginning.
   if (fs::exists(folder + kCheckpoint)) run.readCheckpoint();
   const std::string lines = folder + kGenerations;
@@ -300,7 +303,8 @@ Provenance OptimizationRun::origin() const {
 void OptimizationRun::writeBest() const {
   std::vector<Provenance> origins = config_.inherited;
   replaceProvenance(origins, origin());
-  writeAtomically(folder_ + kBest, learnedToml(space_.apply(incumbent_.point), space_.keys(), origins));
+  writeAtomically(folder_ + kBest, learnedToml(space_.apply(incumbent_.point), defaultParameters(dataFolder_),
+                                               space_.keys(), origins));
 }
 
 }  // namespace nonet::lab

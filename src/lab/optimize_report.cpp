@@ -147,13 +147,13 @@ std::string parameterPaths(const std::vector<json>& lines, const SearchSpace& sp
 
 }  // namespace
 
-std::string writeOptimizationReport(const std::string& folder) {
+std::string writeOptimizationReport(const std::string& folder, const std::string& dataFolder) {
   std::ifstream configFile(folder + "/config.json");
   if (!configFile) throw std::runtime_error(fmt::format("{} is not the folder of a run", folder));
   const auto config = OptimizationConfig::fromJson(json::parse(configFile));
   const std::vector<json> lines = readLines(folder + "/generations.jsonl");
   if (lines.empty()) throw std::runtime_error(fmt::format("{}: no generation is finished yet", folder));
-  const SearchSpace space(config.startParameters(), config.searchedKeys());
+  const SearchSpace space(config.startParameters(dataFolder), config.searchedKeys());
 
   std::vector<double> sigma = column(lines, "sigma");
   for (double& value : sigma) value = std::log10(value);

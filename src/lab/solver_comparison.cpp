@@ -49,7 +49,7 @@ double rankCorrelation(const std::vector<double>& a, const std::vector<double>& 
 
 SolverComparison compareSolvers(const OptimizationConfig& config, int sets, const std::string& dataFolder,
                                 int threads) {
-  const SearchSpace space(config.startParameters(), config.searchedKeys());
+  const SearchSpace space(config.startParameters(dataFolder), config.searchedKeys());
   Random random = Random(config.seed).fork(3);
   const auto seeds = trialSeeds(config.seed, 0, 0, config.trials);
   std::vector<Job> jobs;

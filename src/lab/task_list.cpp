@@ -8,7 +8,8 @@
 namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
-  static const std::array<const Task*, 3> tasks{&goToTargetTask(), &sprintTask(), &quadraticTask()};
+  static const std::array<const Task*, 4> tasks{&goToTargetTask(), &sprintTask(), &getupTask(),
+                                                &quadraticTask()};
   return tasks;
 }
 

@@ -9,6 +9,7 @@ namespace nonet::lab {
 
 const Task& goToTargetTask();
 const Task& sprintTask();
+const Task& getupTask();
 const Task& quadraticTask();
 
 TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,

@@ -70,14 +70,14 @@ class RunFolder : public testing::Test {
 
 TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
   const std::string straight = root_ + "/straight";
-  auto whole = OptimizationRun::create(straight, config());
+  auto whole = OptimizationRun::create(straight, config(), "");
   const auto begin = std::chrono::steady_clock::now();
   finish(whole, 1);
   const auto micros =
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin).count();
 
   const std::string killed = root_ + "/killed";
-  { OptimizationRun::create(killed, config()); }
+  { OptimizationRun::create(killed, config(), ""); }
   Random random(9);
   int kills = 0;
   for (bool finished = false; !finished;) {
@@ -85,7 +85,7 @@ TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      auto run = OptimizationRun::resume(killed, std::nullopt);
+      auto run = OptimizationRun::resume(killed, "", std::nullopt);
       finish(run, 1);
       _exit(0);
     }
@@ -101,34 +101,34 @@ TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
 }
 
 TEST_F(RunFolder, DoesNotDependOnTheThreadsAndCanBeExtended) {
-  auto one = OptimizationRun::create(root_ + "/one", config());
+  auto one = OptimizationRun::create(root_ + "/one", config(), "");
   finish(one, 1);
   OptimizationConfig shorter = config();
   shorter.generations = 33;
-  auto three = OptimizationRun::create(root_ + "/three", shorter);
+  auto three = OptimizationRun::create(root_ + "/three", shorter, "");
   finish(three, 3);
-  auto longer = OptimizationRun::resume(root_ + "/three", config().generations);
+  auto longer = OptimizationRun::resume(root_ + "/three", "", config().generations);
   finish(longer, 2);
   expectSameRun(root_ + "/one", root_ + "/three");
 }
 
 // A torn last line and a best.toml from after the checkpoint are what a kill between two writes leaves.
 TEST_F(RunFolder, ForgetsWhatWasWrittenAfterTheCheckpoint) {
-  auto whole = OptimizationRun::create(root_ + "/whole", config());
+  auto whole = OptimizationRun::create(root_ + "/whole", config(), "");
   finish(whole, 1);
   OptimizationConfig half = config();
   half.generations = 60;
-  auto run = OptimizationRun::create(root_ + "/torn", half);
+  auto run = OptimizationRun::create(root_ + "/torn", half, "");
   finish(run, 1);
   std::ofstream(root_ + "/torn/generations.jsonl", std::ios::app) << "{\"generation\":61,\"best";
   std::ofstream(root_ + "/torn/best.toml", std::ios::app) << "junk";
-  auto resumed = OptimizationRun::resume(root_ + "/torn", config().generations);
+  auto resumed = OptimizationRun::resume(root_ + "/torn", "", config().generations);
   finish(resumed, 1);
   expectSameRun(root_ + "/whole", root_ + "/torn");
 }
 
 TEST_F(RunFolder, ImprovesAndItsProvenanceRepeats) {
-  auto run = OptimizationRun::create(root_ + "/run", config());
+  auto run = OptimizationRun::create(root_ + "/run", config(), "");
   finish(run, 2);
   const std::string best = root_ + "/run/best.toml";
   const auto repetitions = repeatLearned(best, "", 2);
@@ -157,17 +157,17 @@ TEST_F(RunFolder, ImprovesAndItsProvenanceRepeats) {
 }
 
 TEST_F(RunFolder, RefusesToOverwriteARunAndToResumeNone) {
-  auto run = OptimizationRun::create(root_ + "/run", config());
-  EXPECT_THROW(OptimizationRun::create(root_ + "/run", config()), std::runtime_error);
-  EXPECT_THROW(OptimizationRun::resume(root_ + "/other", std::nullopt), std::runtime_error);
+  auto run = OptimizationRun::create(root_ + "/run", config(), "");
+  EXPECT_THROW(OptimizationRun::create(root_ + "/run", config(), ""), std::runtime_error);
+  EXPECT_THROW(OptimizationRun::resume(root_ + "/other", "", std::nullopt), std::runtime_error);
 }
 
 TEST_F(RunFolder, WritesAReportWithACurvePerParameter) {
   OptimizationConfig shortRun = config();
   shortRun.generations = 12;
-  auto run = OptimizationRun::create(root_ + "/run", shortRun);
+  auto run = OptimizationRun::create(root_ + "/run", shortRun, "");
   finish(run, 1);
-  const std::string html = bytes(writeOptimizationReport(root_ + "/run"));
+  const std::string html = bytes(writeOptimizationReport(root_ + "/run", ""));
   for (const std::string& key : run.space().keys()) EXPECT_NE(html.find(key), std::string::npos) << key;
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }

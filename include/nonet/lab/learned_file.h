@@ -36,8 +36,9 @@ struct Provenance {
 std::vector<Provenance> readProvenance(const std::string& path);
 
 /// TOML of the values and their origin: whole tables for those that hold a searched key (so that a later
-/// change of a default does not change a learned set), other values where they differ from the default.
-std::string learnedToml(const agent::AgentParameters& parameters,
+/// change of a default does not change a learned set), other values where they differ from
+/// `defaults`.
+std::string learnedToml(const agent::AgentParameters& parameters, const agent::AgentParameters& defaults,
                         const std::vector<std::string>& searchedKeys, const std::vector<Provenance>& origins);
 
 /// `origin` into the list in place of an older one of the same task.

@@ -41,9 +41,12 @@ struct OptimizationConfig {
   static OptimizationConfig fromJson(const nlohmann::json& value);
 
   std::vector<std::string> searchedKeys() const;  // of the config, or else of the task
-  agent::AgentParameters startParameters() const;
+  agent::AgentParameters startParameters(const std::string& dataFolder) const;
   TaskSettings taskSettings(const std::string& dataFolder) const;
 };
+
+/// The defaults of the code and of the skill files.
+agent::AgentParameters defaultParameters(const std::string& dataFolder);
 
 /// Sets `parameters` and `inherited`: defaults, then DATA/params/type<robotType>.toml if there is one, then
 /// `files` in this order. Throws config::ParameterError.

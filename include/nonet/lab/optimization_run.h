@@ -25,12 +25,14 @@ struct GenerationReport {
 class OptimizationRun {
  public:
   /// A new run; throws std::runtime_error if the folder holds one already.
-  static OptimizationRun create(const std::string& folder, const OptimizationConfig& config);
+  static OptimizationRun create(const std::string& folder, const OptimizationConfig& config,
+                                const std::string& dataFolder);
   /// Continues the one in the folder; `generations` extends it. Throws std::runtime_error.
-  static OptimizationRun resume(const std::string& folder, std::optional<int> generations);
+  static OptimizationRun resume(const std::string& folder, const std::string& dataFolder,
+                                std::optional<int> generations);
 
   /// One generation; false when all are done or CMA-ES has converged. The evaluator's objective must be
-  /// makeObjective(config()).
+  /// makeObjective(config(), dataFolder).
   bool step(Evaluator& evaluator, GenerationReport& report);
 
   const OptimizationConfig& config() const { return config_; }
@@ -42,7 +44,7 @@ class OptimizationRun {
  private:
   using Values = std::vector<std::vector<double>>;  // [candidate][trial]
 
-  OptimizationRun(std::string folder, const OptimizationConfig& config);
+  OptimizationRun(std::string folder, const OptimizationConfig& config, std::string dataFolder);
   Values evaluate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& points,
                   const std::vector<std::uint64_t>& seeds);
   Values evaluateGeneration(Evaluator& evaluator, const Eigen::MatrixXd& points,
@@ -58,6 +60,7 @@ class OptimizationRun {
 
   std::string folder_;
   OptimizationConfig config_;
+  std::string dataFolder_;
   SearchSpace space_;
   RestartingCmaEs optimizer_;
   int generation_ = 0;  // finished ones

@@ -7,6 +7,6 @@ namespace nonet::lab {
 
 /// Reads the folder of a run (finished or not) and writes FOLDER/report.html; returns its path. Throws
 /// std::runtime_error.
-std::string writeOptimizationReport(const std::string& folder);
+std::string writeOptimizationReport(const std::string& folder, const std::string& dataFolder);
 
 }  // namespace nonet::lab
