@@ -65,6 +65,8 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--minutes", match.minutes, "Game time in all, two halves")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
+  command->add_option("--kick-off-wait", match.kickOffWait, "Simulated seconds before each half")
+      ->capture_default_str();
   command->add_option("--seed", match.seed, "Seed of the server and of all agents")->capture_default_str();
   command->add_flag("--realtime", options.realTime, "Play by the clock instead of in lock-step");
   command->add_option("--players", arguments->players, "Players a side")

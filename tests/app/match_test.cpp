@@ -1,0 +1,205 @@
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include <asio.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace nonet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs the program itself; its output goes to a file.
+class Program {
+ public:
+  Program(const std::vector<std::string>& arguments, const fs::path& output) : output_(output) {
+    std::vector<std::string> command = {NONET_BINARY};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& argument : command) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      if (std::freopen(output_.c_str(), "w", stdout) == nullptr || ::dup2(1, 2) < 0) ::_exit(126);
+      ::execv(pointers[0], pointers.data());
+      ::_exit(127);
+    }
+  }
+  ~Program() {
+    if (!ended_) {
+      ::kill(pid_, SIGKILL);
+      wait();
+    }
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  int wait() {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    ended_ = true;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string output() const {
+    std::ifstream file(output_);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  /// Process ids of its agents by uniform number, of one team.
+  std::map<int, pid_t> agents(const std::string& team) const {
+    std::map<int, pid_t> found;
+    for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(pid_) + "/task")) {
+      std::ifstream children(task.path() / "children");
+      for (pid_t child = 0; children >> child;) {
+        std::ifstream file("/proc/" + std::to_string(child) + "/cmdline");
+        std::string part;
+        std::string before;
+        int unum = 0;
+        bool ours = false;
+        while (std::getline(file, part, '\0')) {
+          if (before == "--unum") unum = std::stoi(part);
+          if (before == "--team") ours = part == team;
+          before = part;
+        }
+        if (ours) found[unum] = child;
+      }
+    }
+    return found;
+  }
+
+ private:
+  fs::path output_;
+  pid_t pid_ = -1;
+  bool ended_ = false;
+};
+
+class MatchCommand : public testing::Test {
+ protected:
+  MatchCommand() : folder_(fs::temp_directory_path() / ("nonet_match_test_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~MatchCommand() override { fs::remove_all(folder_); }
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string bytes(const std::string& name) const {
+    std::ifstream stream(file(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(bytes(name)); }
+
+  fs::path folder_;
+};
+
+TEST_F(MatchCommand, SameSeedGivesIdenticalLogsAndTheSameMatchInOneProcess) {
+  const std::vector<std::string> common = {"match",           "--players", "2",      "--minutes", "0.1",
+                                           "--kick-off-wait", "1",         "--seed", "11"};
+  for (const std::string name : {"a", "b", "here"}) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), {"--json", file(name + ".json")});
+    if (name == "here") {
+      arguments.push_back("--in-process");
+    } else {
+      arguments.insert(arguments.end(), {"--logs", file(name)});
+    }
+    Program program(arguments, file(name + ".txt"));
+    ASSERT_EQ(program.wait(), 0) << program.output();
+  }
+  EXPECT_TRUE(json("a.json")["flawless"]);
+  EXPECT_EQ(json("a.json")["signature"], json("b.json")["signature"]);
+  EXPECT_EQ(json("a.json")["signature"], json("here.json")["signature"]);
+  int logs = 0;
+  for (const auto& entry : fs::directory_iterator(file("a"))) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(bytes("a/" + name), bytes("b/" + name)) << name;
+    ++logs;
+  }
+  EXPECT_EQ(logs, 4);
+
+  Program replay({"replay", "--json", file("a/Nonet_1.zst"), file("a/Guests_2.zst")}, file("replay.txt"));
+  EXPECT_EQ(replay.wait(), 0) << replay.output();
+  std::istringstream lines(replay.output());
+  int reports = 0;
+  for (std::string line; std::getline(lines, line); ++reports) {
+    const auto report = nlohmann::json::parse(line);
+    EXPECT_EQ(report["effector_differences"], 0);
+    EXPECT_EQ(report["unknown"], 0);
+    EXPECT_EQ(report["lost_cycles"], 0);
+  }
+  EXPECT_EQ(reports, 2);
+}
+
+// One agent killed, one stopped for a while, and strangers that send random bytes or half a message and
+// leave.
+TEST_F(MatchCommand, PlaysOnWhenAgentsAreHarmed) {
+  Program program({"match", "--realtime", "--players", "2", "--minutes", "0.1", "--kick-off-wait", "2",
+                   "--json", file("harm.json")},
+                  file("harm.txt"));
+  int port = 0;
+  for (int i = 0; i < 200 && program.output().find("BeforeKickOff") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  const std::string text = program.output();
+  const std::size_t at = text.find("agents on port ");
+  ASSERT_NE(at, std::string::npos) << text;
+  port = std::stoi(text.substr(at + 15));
+  const auto nonet = program.agents("Nonet");
+  const auto guests = program.agents("Guests");
+  ASSERT_EQ(nonet.size(), 2U);
+  ASSERT_EQ(guests.size(), 2U);
+  ::kill(nonet.at(2), SIGKILL);
+  ::kill(guests.at(1), SIGSTOP);
+
+  asio::io_context io;
+  asio::ip::tcp::socket garbage(io);
+  garbage.connect({asio::ip::address_v4::loopback(), static_cast<asio::ip::port_type>(port)});
+  asio::write(garbage, asio::buffer(std::string("\0\0\0\x08)))((((\xff\xfe\xfd\xfc\xfb", 17)));
+  asio::ip::tcp::socket half(io);
+  half.connect({asio::ip::address_v4::loopback(), static_cast<asio::ip::port_type>(port)});
+  asio::write(half, asio::buffer(std::string("\0\0\0\x50(scene rsg", 14)));
+  half.close();
+
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  ::kill(guests.at(1), SIGCONT);
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  const auto result = json("harm.json");
+  EXPECT_TRUE(result["finished"]);
+  EXPECT_FALSE(result["flawless"]);
+  for (const auto& player : result["players"]) {
+    const bool killed = player["team"] == "Nonet" && player["unum"] == 2;
+    EXPECT_EQ(player["gone"], killed);
+    EXPECT_EQ(player["ending"].get<std::string>().empty(), !killed) << player["ending"];
+  }
+  EXPECT_NE(program.output().find("Nonet_2 has ended: killed by signal 9"), std::string::npos)
+      << program.output();
+}
+
+TEST_F(MatchCommand, PlayWithoutServerEndsWithTwo) {
+  asio::io_context io;
+  int port = 0;
+  {
+    const asio::ip::tcp::acceptor taken(io, {asio::ip::address_v4::loopback(), 0});
+    port = taken.local_endpoint().port();
+  }
+  Program program({"play", "--port", std::to_string(port), "--wait", "0.2"}, file("play.txt"));
+  EXPECT_EQ(program.wait(), 2);
+  EXPECT_NE(program.output().find("no server"), std::string::npos);
+}
+
+TEST_F(MatchCommand, TellsWhyAMatchCannotBegin) {
+  std::ofstream(file("wrong.toml")) << "nosuchparameter = 1\n";
+  Program program({"match", "--players", "1", "--left-params", file("wrong.toml"), "--json", file("x.json")},
+                  file("wrong.txt"));
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_NE(program.output().find("nosuchparameter"), std::string::npos) << program.output();
+}
+
+}  // namespace
+}  // namespace nonet::app
