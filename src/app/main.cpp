@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
   nonet::app::addOptimizeCommand(app, exitCode);
   nonet::app::addSkillCommand(app, exitCode);
   nonet::app::addWalkReportCommand(app, exitCode);
+  nonet::app::addRiseReportCommand(app, exitCode);
   CLI11_PARSE(app, argc, argv);
   return exitCode;
 }

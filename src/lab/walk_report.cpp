@@ -1,11 +1,10 @@
 #include "nonet/lab/walk_report.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <thread>
 #include <vector>
+
+#include "parallel.h"
 
 namespace nonet::lab {
 
@@ -142,19 +141,6 @@ Walk turnOnTheSpot(const WalkReportSettings& settings, double sense, std::uint64
   }
   walk.steady = sense * turned / kSteady;
   return walk;
-}
-
-void inParallel(int count, int threads, const std::function<void(int)>& job) {
-  const int workers =
-      std::max(1, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int i = next++; i < count; i = next++) job(i);
-  };
-  std::vector<std::thread> others;
-  for (int i = 1; i < workers; ++i) others.emplace_back(work);
-  work();
-  for (std::thread& other : others) other.join();
 }
 
 }  // namespace

@@ -14,5 +14,6 @@ void addFidelityCommand(CLI::App& app, int& exitCode);
 void addOptimizeCommand(CLI::App& app, int& exitCode);
 void addSkillCommand(CLI::App& app, int& exitCode);
 void addWalkReportCommand(CLI::App& app, int& exitCode);
+void addRiseReportCommand(CLI::App& app, int& exitCode);
 
 }  // namespace nonet::app

@@ -1,0 +1,51 @@
+// nonet rise-report: how reliably and how fast the robot gets up.
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "nonet/app/commands.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/lab/agent_setup.h"
+#include "nonet/lab/rise_report.h"
+
+namespace nonet::app {
+
+namespace {
+
+struct RiseReportArguments {
+  lab::AgentChoice choice;
+  lab::RiseReportSettings settings;
+  bool json = false;
+};
+
+int run(const RiseReportArguments& arguments) {
+  const agent::AgentConfig config = lab::makeAgentConfig(arguments.choice, dataFolder());
+  lab::RiseReportSettings settings = arguments.settings;
+  settings.seed = arguments.choice.seed;
+  settings.setup.robotType = arguments.choice.robotType;
+  settings.setup.motion = config.parameters.motion;
+  settings.setup.world = config.parameters.world;
+  settings.setup.skillFolder = config.skillFolder;
+  const lab::RiseReport report = lab::measureRising(settings);
+  fmt::print("{}", arguments.json ? lab::riseReportJson(report) : lab::riseReportTable(report));
+  return 0;
+}
+
+}  // namespace
+
+void addRiseReportCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand(
+      "rise-report", "Measure rising from seeded falls to the front, the back and the side");
+  const auto arguments = std::make_shared<RiseReportArguments>();
+  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
+  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
+      ->check(CLI::ExistingFile);
+  command->add_option("--falls", arguments->settings.falls, "Falls of each kind")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--seed", arguments->choice.seed, "Seed of all falls");
+  command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
+  command->add_flag("--json", arguments->json, "Print JSON");
+  command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
+}
+
+}  // namespace nonet::app

@@ -1,0 +1,27 @@
+// A loop over independent jobs on several threads. Which thread does which job is left open, so a job may
+// depend on its number only.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace nonet::lab {
+
+/// Calls job(0) ... job(count - 1). `threads` 0: as many as there are processors.
+template <class Job>
+void inParallel(int count, int threads, const Job& job) {
+  const int workers =
+      std::max(1, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int i = next++; i < count; i = next++) job(i);
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < workers; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+}
+
+}  // namespace nonet::lab
