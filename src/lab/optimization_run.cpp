@@ -8,8 +8,11 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace nonet::lab {
 
@@ -22,6 +25,7 @@ constexpr const char* kConfig = "/config.json";
 constexpr const char* kGenerations = "/generations.jsonl";
 constexpr const char* kCheckpoint = "/checkpoint.json";
 constexpr const char* kBest = "/best.toml";
+constexpr const char* kLock = "/lock";
 
 enum Stream : int { kCandidates = 0, kValidation = 1 };
 
@@ -51,6 +55,19 @@ json readJson(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(fmt::format("cannot read {}: is this the folder of a run?", path));
   return json::parse(file);
+}
+
+// Held until the last copy goes or the process ends, however it ends.
+std::shared_ptr<void> lockFolder(const std::string& folder) {
+  const std::string path = folder + kLock;
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) throw std::runtime_error(fmt::format("cannot write {}", path));
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    close(file);
+    throw std::runtime_error(
+        fmt::format("another process works on {}: wait for its end or stop it first", folder));
+  }
+  return {nullptr, [file](void*) { close(file); }};
 }
 
 CmaEsSettings cmaSettings(const OptimizationConfig& config, const SearchSpace& space) {
@@ -105,6 +122,7 @@ OptimizationRun OptimizationRun::create(const std::string& folder, const Optimiz
   }
   OptimizationRun run(folder, config, dataFolder);
   fs::create_directories(folder);
+  run.lock_ = lockFolder(folder);
   fs::remove(folder + kCheckpoint);
   std::ofstream(folder + kGenerations, std::ios::binary | std::ios::trunc);
   writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
@@ -114,11 +132,13 @@ OptimizationRun OptimizationRun::create(const std::string& folder, const Optimiz
 OptimizationRun OptimizationRun::resume(const std::string& folder, const std::string& dataFolder,
                                         std::optional<int> generations) {
   OptimizationConfig config = OptimizationConfig::fromJson(readJson(folder + kConfig));
+  const std::shared_ptr<void> lock = lockFolder(folder);
   if (generations && *generations != config.generations) {
     config.generations = *generations;
     writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
   }
   OptimizationRun run(folder, config, dataFolder);
+  run.lock_ = lock;
   // Killed before the first checkpoint: from the beginning.
   if (fs::exists(folder + kCheckpoint)) run.readCheckpoint();
   const std::string lines = folder + kGenerations;

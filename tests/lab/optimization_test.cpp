@@ -105,8 +105,10 @@ TEST_F(RunFolder, DoesNotDependOnTheThreadsAndCanBeExtended) {
   finish(one, 1);
   OptimizationConfig shorter = config();
   shorter.generations = 33;
-  auto three = OptimizationRun::create(root_ + "/three", shorter, "");
-  finish(three, 3);
+  {
+    auto three = OptimizationRun::create(root_ + "/three", shorter, "");
+    finish(three, 3);
+  }
   auto longer = OptimizationRun::resume(root_ + "/three", "", config().generations);
   finish(longer, 2);
   expectSameRun(root_ + "/one", root_ + "/three");
@@ -118,8 +120,10 @@ TEST_F(RunFolder, ForgetsWhatWasWrittenAfterTheCheckpoint) {
   finish(whole, 1);
   OptimizationConfig half = config();
   half.generations = 60;
-  auto run = OptimizationRun::create(root_ + "/torn", half, "");
-  finish(run, 1);
+  {
+    auto run = OptimizationRun::create(root_ + "/torn", half, "");
+    finish(run, 1);
+  }
   std::ofstream(root_ + "/torn/generations.jsonl", std::ios::app) << "{\"generation\":61,\"best";
   std::ofstream(root_ + "/torn/best.toml", std::ios::app) << "junk";
   auto resumed = OptimizationRun::resume(root_ + "/torn", "", config().generations);
@@ -160,6 +164,14 @@ TEST_F(RunFolder, RefusesToOverwriteARunAndToResumeNone) {
   auto run = OptimizationRun::create(root_ + "/run", config(), "");
   EXPECT_THROW(OptimizationRun::create(root_ + "/run", config(), ""), std::runtime_error);
   EXPECT_THROW(OptimizationRun::resume(root_ + "/other", "", std::nullopt), std::runtime_error);
+}
+
+// When mpirun is killed its ranks may live on for a while.
+TEST_F(RunFolder, IsHeldByOneProcess) {
+  auto run = OptimizationRun::create(root_ + "/run", config(), "");
+  EXPECT_THROW(OptimizationRun::resume(root_ + "/run", "", std::nullopt), std::runtime_error);
+  { const OptimizationRun last = std::move(run); }
+  EXPECT_NO_THROW(OptimizationRun::resume(root_ + "/run", "", std::nullopt));
 }
 
 TEST_F(RunFolder, WritesAReportWithACurvePerParameter) {

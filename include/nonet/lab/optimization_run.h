@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ struct GenerationReport {
 
 class OptimizationRun {
  public:
-  /// A new run; throws std::runtime_error if the folder holds one already.
+  /// A new run; throws std::runtime_error if the folder holds one already or another process works on it.
   static OptimizationRun create(const std::string& folder, const OptimizationConfig& config,
                                 const std::string& dataFolder);
   /// Continues the one in the folder; `generations` extends it. Throws std::runtime_error.
@@ -59,6 +60,7 @@ class OptimizationRun {
   Provenance origin() const;
 
   std::string folder_;
+  std::shared_ptr<void> lock_;  // one process per folder: a rank that outlives mpirun would write too
   OptimizationConfig config_;
   std::string dataFolder_;
   SearchSpace space_;
