@@ -29,7 +29,8 @@ using Clock = std::chrono::steady_clock;
 using asio::ip::tcp;
 
 constexpr auto kCycle = std::chrono::milliseconds(20);
-constexpr std::size_t kMaxQueuedMessages = 64;  // of one connection; more wait in its socket
+constexpr std::size_t kMaxQueuedMessages =
+    64;  // of one connection; more are merged (agents) or wait (monitors)
 
 tcp::acceptor listenOn(asio::io_context& io, const std::string& address, std::uint16_t port,
                        const char* purpose) {
@@ -43,6 +44,19 @@ tcp::acceptor listenOn(asio::io_context& io, const std::string& address, std::ui
     throw std::runtime_error(fmt::format("cannot listen on {} port {} (for {}): {}", address, port, purpose,
                                          error.code().message()));
   }
+}
+
+// Of equal effectors the last one counts, as within one message.
+void mergeInto(protocol::Effectors& earlier, const protocol::Effectors& later) {
+  if (later.scene) earlier.scene = later.scene;
+  if (later.init) earlier.init = later.init;
+  if (later.beam) earlier.beam = later.beam;
+  if (later.say) earlier.say = later.say;
+  for (std::size_t i = 0; i < model::kJointCount; ++i) {
+    if (later.hasSpeed(model::jointAt(i))) earlier.setSpeed(model::jointAt(i), later.speeds[i]);
+  }
+  earlier.pass = earlier.pass || later.pass;
+  earlier.syn = earlier.syn || later.syn;
 }
 
 // An agent's connection.
@@ -161,7 +175,7 @@ void Server::Implementation::acceptAgents() {
       }
       spdlog::info("server: {} connected", describe(added));
       added.connection->start([this, &added](std::string_view message) { agentMessage(added, message); },
-                              [&added] { return added.inbox.size() >= kMaxQueuedMessages; });
+                              [] { return false; });
     } else {
       spdlog::warn("server: could not accept an agent: {}", error.message());
     }
@@ -207,7 +221,13 @@ void Server::Implementation::agentMessage(AgentLink& link, std::string_view mess
   link.skipped += skipped;
   statistics.skippedExpressions += skipped;
   if (link.lobby) return lobbyMessage(link, effectors);
-  link.inbox.push_back({effectors, link.sensesSent});
+  if (link.inbox.size() < kMaxQueuedMessages) {
+    link.inbox.push_back({effectors, link.sensesSent});
+  } else {
+    // Reading must go on, or the answer, and the end of the connection, would hide behind a flood.
+    mergeInto(link.inbox.back().effectors, effectors);
+    link.inbox.back().afterSense = link.sensesSent;
+  }
 }
 
 void Server::Implementation::lobbyMessage(AgentLink& link, const protocol::Effectors& message) {
@@ -334,7 +354,6 @@ void Server::Implementation::deliverCommands() {
       simulation.actAsReceived(link->agent, received.effectors);
       link->inbox.pop_front();
     }
-    link->connection->resume();
   }
 }
 
