@@ -93,7 +93,7 @@ std::optional<Quantiles> quantiles(std::vector<double> sample) {
   if (sample.empty()) return std::nullopt;
   std::sort(sample.begin(), sample.end());
   const auto at = [&](double share) {
-    return sample[static_cast<std::size_t>(share * static_cast<double>(sample.size() - 1) + 0.5)];
+    return sample[static_cast<std::size_t>(std::lround(share * static_cast<double>(sample.size() - 1)))];
   };
   return Quantiles{sample.size(), at(0.5), at(0.95)};
 }
