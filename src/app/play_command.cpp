@@ -20,6 +20,9 @@ int runPlay(PlayArguments& arguments) {
   if (!arguments.start.empty()) {
     arguments.choice.startPose = Pose2(arguments.start.at(0), arguments.start.at(1), 0.0);
   }
+  if (!arguments.challenge.empty()) {
+    fmt::print("challenge {}: the agent starts at its place and plays as in a match\n", arguments.challenge);
+  }
   PlayOptions& play = arguments.play;
   play.session.agent = lab::makeAgentConfig(arguments.choice, dataFolder());
   // A server in real time ignores (syn), so there is nothing to find out: auto means on, and takes care of
