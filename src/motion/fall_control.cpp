@@ -12,6 +12,7 @@ using world::Posture;
 namespace {
 
 constexpr double kStandsAgain = 2.0;  // s upright until a fall counts as a new one
+constexpr double kLowest = 0.5;       // share of the standing height: below it the robot will not sway up
 constexpr int kVariants = 3;
 
 struct RiseSkills {
@@ -23,8 +24,9 @@ constexpr RiseSkills kSide{{{"rise_side", "rise_side_2", "rise_side_3"}}};
 
 }  // namespace
 
-FallControl::FallControl(const SkillLibrary& library, const FallParameters& parameters)
-    : library_(&library), parameters_(parameters) {}
+FallControl::FallControl(const model::RobotModel& model, const SkillLibrary& library,
+                         const FallParameters& parameters)
+    : model_(&model), library_(&library), parameters_(parameters) {}
 
 bool FallControl::update(const world::WorldState& world, SkillPlayer& player, JointTargets& targets) {
   const world::BodyState& body = world.body;
@@ -55,13 +57,28 @@ bool FallControl::update(const world::WorldState& world, SkillPlayer& player, Jo
       return true;
     }
   }
-  if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
-  // Over: either the robot stands, or the next attempt begins from what it has come to.
-  phase_ = upright ? Phase::None : Phase::Falling;
+  if (phase_ == Phase::Rising) {
+    if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
+    phase_ = Phase::Settling;
+    settlingSince_ = world.time;
+  }
+  return settle(world, targets);
+}
+
+// The skill is over: either the robot comes to stand, or the next attempt begins from what it has come to.
+bool FallControl::settle(const world::WorldState& world, JointTargets& targets) {
+  const world::BodyState& body = world.body;
   lying_ = false;
   uprightSince_ = world.time;
-  if (phase_ == Phase::None) return false;
-  protect(targets);
+  if (body.posture == Posture::Upright) {
+    phase_ = Phase::None;
+    return false;
+  }
+  const bool low = body.torsoHeight < kLowest * model_->standingHeight();
+  if (low || world.time - settlingSince_ > parameters_.settleTime) {
+    phase_ = Phase::Falling;
+    protect(targets);
+  }
   return true;
 }
 

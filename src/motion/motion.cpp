@@ -40,7 +40,7 @@ struct Motion::Stages {
         library(skillFolder, motionParameters.skills),
         player(robot, library, WalkEngine::standAngles(robot, motionParameters.sets.goToTarget)),
         walk(robot, motionParameters.sets, motionParameters.selection),
-        fall(library, motionParameters.fall),
+        fall(robot, library, motionParameters.fall),
         head(robot, motionParameters.head) {}
 
   enum class Mode : std::uint8_t { Walk, Skill, Fall };

@@ -15,6 +15,7 @@ struct FallParameters {
   double softness = 0.3;
   double quietRate = 1.5;
   double longestWait = 0.6;
+  double settleTime = 0.8;
   double armPitch = -1.57;
   double armYaw = 0.4;
 
@@ -28,6 +29,12 @@ struct FallParameters {
         self.quietRate);
     visit({"longestWait", Unit::Second, {0.0, 5.0}, fixed, "Then it rises even if it still moves"},
           self.longestWait);
+    visit({"settleTime",
+           Unit::Second,
+           {0.0, 5.0},
+           fixed,
+           "After a rising skill the robot may sway so long before the next attempt begins"},
+          self.settleTime);
     visit({"armPitch", Unit::Radian, {-2.0, 2.0}, fixed, "Shoulder pitch while falling"}, self.armPitch);
     visit({"armYaw", Unit::Radian, {0.0, 1.6}, fixed, "Arms outwards while falling"}, self.armYaw);
   }
@@ -35,26 +42,30 @@ struct FallParameters {
 
 class FallControl {
  public:
-  FallControl(const SkillLibrary& library, const FallParameters& parameters);
+  FallControl(const model::RobotModel& model, const SkillLibrary& library, const FallParameters& parameters);
 
   /// True while it is in control and has filled the targets.
   bool update(const world::WorldState& world, SkillPlayer& player, JointTargets& targets);
 
-  bool rising() const { return phase_ == Phase::Rising; }
+  bool rising() const { return phase_ == Phase::Rising || phase_ == Phase::Settling; }
   bool active() const { return phase_ != Phase::None; }
   int attempts() const { return attempts_; }
 
  private:
-  enum class Phase : std::uint8_t { None, Falling, Rising };
+  // Settling: the skill is over, the robot still sways into the stand.
+  enum class Phase : std::uint8_t { None, Falling, Rising, Settling };
+  bool settle(const world::WorldState& world, JointTargets& targets);
   void protect(JointTargets& targets) const;
   bool startRising(world::Posture posture, SkillPlayer& player, const world::WorldState& world,
                    JointTargets& targets);
 
+  const model::RobotModel* model_;
   const SkillLibrary* library_;
   FallParameters parameters_;
   Phase phase_ = Phase::None;
-  int attempts_ = 0;         // since the robot last stood for a while
-  double lyingSince_ = 0.0;  // server time, s
+  int attempts_ = 0;            // since the robot last stood for a while
+  double settlingSince_ = 0.0;  // server time, s
+  double lyingSince_ = 0.0;     // server time, s
   bool lying_ = false;
   double uprightSince_ = 0.0;  // server time, s
 };
