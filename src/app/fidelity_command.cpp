@@ -100,9 +100,6 @@ void addFidelityCommand(CLI::App& app, int& exitCode) {
   command->add_option("--solver", arguments->solver, "Stepper of the simulation")
       ->check(CLI::IsMember({"exact", "quick"}))
       ->capture_default_str();
-  command->add_option("--iterations", arguments->settings.quickIterations, "Iterations of the quick stepper")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
   command->footer(
       "The columns >0.1 mm, >1 mm, >1 cm tell when the position of any body or of the ball is first that far "
       "off;\n"

@@ -115,8 +115,8 @@ void describe(Self& s, Visitor&& visit) {
   visit("SenseBallPos", s.senseBallPos, count, "(ballpos x y z) in See");
   visit("LeftTeam", s.leftTeam, count, "name of the team that plays left");
   visit("RightTeam", s.rightTeam, count, "name of the team that plays right");
-  visit("QuickSolver", s.quickSolver, count, "ODE's iterative stepper instead of the exact one");
-  visit("QuickIterations", s.quickIterations, Bounds{1, 10000}, "iterations of the quick stepper");
+  visit("QuickSolver", s.quickSolver, count, "the quick stepper instead of ODE's exact one");
+
   visit("Threads", s.threads, Bounds{1, 256}, "threads that step the physics; without effect on the result");
 }
 
@@ -302,7 +302,6 @@ void Settings::overlayText(std::string_view toml, const std::string& nameForErro
 WorldSettings Settings::world() const {
   WorldSettings world;
   world.solver = quickSolver ? WorldSettings::Solver::Quick : WorldSettings::Solver::Exact;
-  world.quickIterations = quickIterations;
   world.threads = threads;
   world.fieldLength = fieldLength;
   world.fieldWidth = fieldWidth;

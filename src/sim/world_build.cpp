@@ -194,6 +194,9 @@ void World::Implementation::addRobotAs(RobotHandle handle, int type) {
       robot.feet.emplace_back().body = part.id;
     }
     if (part.joint) {
+      BodyNode& parent = robot.bodies[part.joint->parent];
+      body.neighbours.push_back(&parent);
+      parent.neighbours.push_back(&body);
       robot.jointIndex[index(part.joint->id)] = static_cast<int>(robot.joints.size());
       robot.joints.push_back({part.joint->id, robot.cell.mechanism.joints[robot.joints.size()], body.body,
                               part.id, part.joint->maxSpeed, part.joint->lowStop, part.joint->highStop,

@@ -48,7 +48,9 @@ struct BodyNode {
   std::size_t place = 0;  // in its cell
   model::BodyId id = model::BodyId::Torso;
   dBodyID body = nullptr;
-  dGeomID geom = nullptr;  // null: no collider
+  dGeomID geom = nullptr;             // null: no collider
+  std::vector<BodyNode*> neighbours;  // by joints, in the order in which those were attached
+  bool visited = false;               // scratch
   ScenePose pose;
   Collider collider;
   int stepsUntilSleep = kStepsUntilSleep;  // ODE's counter, followed here because ODE does not show it

@@ -85,6 +85,9 @@ void stepTogether(Cluster& cluster, dReal seconds) {
 
 }  // namespace
 
+Cell::Cell() = default;
+Cell::~Cell() = default;
+
 CommonWorld::CommonWorld(std::span<Cell* const> cells, const WorldSettings& settings) {
   for (const Cell* cell : cells) {
     members.push_back(cell->handle);
@@ -124,6 +127,34 @@ void CommonWorlds::forget(RobotHandle member) {
 
 void watchBody(BodyNode& node) {
   watch(node.body, node);
+}
+
+void orderAsOde(Cluster& cluster) {
+  BodyNode* start = nullptr;
+  for (Cell* cell : cluster.cells) {
+    for (BodyNode* node : cell->nodes) {
+      node->visited = false;
+      if (dBodyIsEnabled(node->body) != 0) start = node;
+    }
+  }
+  if (start == nullptr) return;
+  std::vector<BodyNode*>& stack = cluster.stack;
+  const auto push = [&stack](BodyNode* node) {
+    if (node == nullptr || node->visited) return;
+    node->visited = true;
+    stack.push_back(node);
+  };
+  push(start);
+  while (!stack.empty()) {
+    BodyNode* node = stack.back();
+    stack.pop_back();
+    cluster.moved.push_back(node);
+    for (auto contact = cluster.contacts.rbegin(); contact != cluster.contacts.rend(); ++contact) {
+      if ((*contact)->first->node == node) push((*contact)->second->node);
+      if ((*contact)->second->node == node) push((*contact)->first->node);
+    }
+    for (auto joint = node->neighbours.rbegin(); joint != node->neighbours.rend(); ++joint) push(*joint);
+  }
 }
 
 void stepExactly(Cluster& cluster, dReal seconds) {

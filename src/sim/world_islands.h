@@ -14,14 +14,21 @@ namespace nonet::sim {
 struct BodyNode;
 struct Collider;
 struct Cluster;
+struct QuickCell;
 
 /// A robot or the ball, in an ODE world of its own.
 struct Cell {
+  Cell();
+  ~Cell();
+  Cell(const Cell&) = delete;
+  Cell& operator=(const Cell&) = delete;
+
   OdeWorld world;
   Mechanism mechanism;
   std::vector<BodyNode*> nodes;   // of the mechanism's bodies
   RobotHandle handle = kNoRobot;  // kNoRobot: the ball
   int robotType = -1;
+  std::unique_ptr<QuickCell> quick;  // for the quick stepper, made when first needed
 
   // In this cycle:
   std::size_t rank = 0;        // place in the order of creation
@@ -63,11 +70,16 @@ struct Cluster {
   std::vector<Cell*> cells;               // in order of creation
   std::vector<PendingContact*> contacts;  // in order of creation
   CommonWorld* common = nullptr;          // for more than one cell
+  std::vector<BodyNode*> stack;           // scratch
   std::vector<BodyNode*> moved;           // by the step, in ODE's order
 };
 
 /// Has ODE report each body that it moves to the cluster.
 void watchBody(BodyNode& node);
+
+/// Fills `moved` with all bodies in the order in which ODE would step them: from the newest body that is
+/// awake along joints and contacts, the newest ones first. For steppers other than ODE's.
+void orderAsOde(Cluster& cluster);
 
 /// Steps one cluster with ODE's exact stepper. Nothing is touched but its cells.
 void stepExactly(Cluster& cluster, dReal seconds);

@@ -202,7 +202,6 @@ constexpr int kFirstFixture = 1'000'000;
 std::vector<std::uint8_t> World::Implementation::save() const {
   Writer out;
   out.put(kFormat);
-  out.put(settings.solver);
   out.put(cycles);
   out.put(nextHandle);
   out.put(ballInGoal);
@@ -226,9 +225,6 @@ std::vector<std::uint8_t> World::Implementation::save() const {
 void World::Implementation::restore(std::span<const std::uint8_t> state) {
   Reader in(state);
   if (in.get<std::uint32_t>() != kFormat) throw std::runtime_error("saved world: unknown format");
-  if (in.get<WorldSettings::Solver>() != settings.solver) {
-    throw std::runtime_error("saved world: it was saved with the other solver");
-  }
   for (const auto& robot : robots) destroyRobot(*robot);
   robots.clear();
   commonWorlds.clear();

@@ -47,6 +47,19 @@ TEST_P(Fidelity, FollowsTheRecordingToItsLastDigit) {
 INSTANTIATE_TEST_SUITE_P(Recorded, Fidelity, testing::ValuesIn(scenarios()),
                          [](const auto& info) { return info.param; });
 
+// The quick stepper solves the same equations; only rounding differs, which walking amplifies after some
+// seconds.
+TEST_P(Fidelity, QuickStepperFollowsTheRecordingToo) {
+  const WorldSettings quick{.solver = WorldSettings::Solver::Quick};
+  const FidelityResult result = replay(readRecording(recordingFile(GetParam())), quick);
+  EXPECT_TRUE(result.knownHistory);
+  EXPECT_LT(result.worstPositionBefore(5.0), kRounding);
+  if (GetParam().starts_with("walk_until_fall") || GetParam().starts_with("step_in_place")) return;
+  EXPECT_LT(result.worst.position(), kRounding);
+  EXPECT_LT(result.worst.joints, 0.011);
+  EXPECT_EQ(result.worst.footContacts, 0);
+}
+
 TEST(FidelityStart, UnknownExperimentThatBeginsStandingIsStillExact) {
   Recording recording = readRecording(recordingFile("kick"));
   recording.scenario = "something else";

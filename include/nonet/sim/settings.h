@@ -122,7 +122,6 @@ struct Settings {
   std::string leftTeam;   // fixes which name plays left; empty: the first name that is used
   std::string rightTeam;  // likewise right
   bool quickSolver = false;
-  int quickIterations = 50;
   int threads = 1;
 
   /// Switches mypos, myorien and ballpos on.
