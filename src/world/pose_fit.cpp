@@ -35,6 +35,29 @@ Vector3 logarithm(const Matrix3& R) {
   return turn.angle() * turn.axis();
 }
 
+/// Squared sigmas between a seen line and a line of the map in camera axes, both ends together; far more than
+/// the gate if one end does not fit.
+double matchCost(const ObservedLine& seen, const std::array<Matrix3, 2>& whiteners, const Vector3& begin,
+                 const Vector3& end, double length) {
+  const Vector3 direction = (end - begin) / length;
+  double cost = 0.0;
+  for (std::size_t side = 0; side < 2 && cost < 2.0 * kEndGate; ++side) {
+    const Vector3& p_CP = seen.ends[side].p_CP;
+    double squared = 0.0;
+    if (seen.clipped[side]) {
+      // Nearest point of the line in units of the noise; it must lie on the painted part.
+      const Vector3 along = whiteners[side] * direction;
+      const Vector3 fromBegin = whiteners[side] * (p_CP - begin);
+      const double share = std::clamp(along.dot(fromBegin) / along.squaredNorm(), 0.0, length);
+      squared = (fromBegin - share * along).squaredNorm();
+    } else {
+      squared = (whiteners[side] * (p_CP - (side == 0 ? begin : end))).squaredNorm();
+    }
+    cost += squared > kEndGate ? 4.0 * kEndGate : squared;
+  }
+  return cost;
+}
+
 }  // namespace
 
 Pose3 PoseBelief::pose() const {
@@ -67,6 +90,12 @@ struct PoseFit::Problem {
 
   Matrix3 R_WC() const { return now.R_WR * X_RC.linear(); }
   Vector3 p_WC() const { return now.p_WR + now.R_WR * X_RC.translation(); }
+
+  BeliefMatrix posteriorInformation() const {
+    BeliefMatrix sum = information;
+    sum.topLeftCorner<9, 9>() += normal;
+    return sum;
+  }
 
   BeliefVector distance() const {
     BeliefVector d;
@@ -189,27 +218,7 @@ void PoseFit::matchLines(const Problem& problem) {
       // A part cannot be longer than the line, and a line seen whole has its length.
       const double excess = seen.length - fieldLines[k].length;
       if (excess > 4.0 * lengthSigma || (whole && excess < -4.0 * lengthSigma)) continue;
-      const Vector3 direction = (ends[k] - begins[k]) / fieldLines[k].length;
-      double cost = 0.0;
-      for (std::size_t side = 0; side < 2 && cost < 2.0 * kEndGate; ++side) {
-        const Vector3& target = side == 0 ? begins[k] : ends[k];
-        Vector3 difference = seen.ends[side].p_CP - target;
-        if (seen.clipped[side]) {
-          // Nearest point of the line, which must lie on the painted part.
-          const double share =
-              std::clamp(direction.dot(seen.ends[side].p_CP - begins[k]), 0.0, fieldLines[k].length);
-          difference = seen.ends[side].p_CP - begins[k] - share * direction;
-          const Vector3 along = whiteners[side] * direction;
-          const Vector3 white = whiteners[side] * difference;
-          const double inside = along.dot(white) / along.squaredNorm();
-          const double moved = std::clamp(share + inside, 0.0, fieldLines[k].length) - share;
-          const double squared = (white - moved * along).squaredNorm();
-          cost += squared > kEndGate ? 4.0 * kEndGate : squared;
-          continue;
-        }
-        const double squared = (whiteners[side] * difference).squaredNorm();
-        cost += squared > kEndGate ? 4.0 * kEndGate : squared;
-      }
+      const double cost = matchCost(seen, whiteners, begins[k], ends[k], fieldLines[k].length);
       if (cost < best) {
         second = best;
         best = cost;
@@ -222,6 +231,27 @@ void PoseFit::matchLines(const Problem& problem) {
   }
 }
 
+double PoseFit::solve(Problem& problem, int iterations) const {
+  double cost = linearise(problem);
+  for (int i = 0; i < iterations; ++i) {
+    BeliefVector gradient = -problem.information * problem.distance();
+    gradient.head<9>() += problem.gradient;
+    BeliefVector step = problem.posteriorInformation().llt().solve(gradient);
+    const PoseBelief start = problem.now;
+    const double before = cost;
+    for (int half = 0; half <= kHalvings; ++half) {
+      problem.now = problem.moved(step);
+      cost = linearise(problem);
+      if (cost <= before + 1e-9) break;
+      problem.now = start;
+      if (half == kHalvings) cost = linearise(problem);
+      step *= 0.5;
+    }
+    if (before - cost < 1e-3 * (1.0 + cost) && i > 0) break;
+  }
+  return cost;
+}
+
 FitReport PoseFit::update(PoseBelief& belief, const Pose3& X_RC, const VisionFrame& frame,
                           const FieldMap& map, const FitOptions& options) {
   FitReport report;
@@ -229,53 +259,24 @@ FitReport PoseFit::update(PoseBelief& belief, const Pose3& X_RC, const VisionFra
   const PoseBelief prior = belief;
   Problem problem{prior, prior.covariance.llt().solve(BeliefMatrix::Identity()), prior, X_RC, frame, map};
   problem.useLandmarks = options.useLandmarks;
-  BeliefMatrix normal = problem.information;
-  const auto iterate = [&](int iterations) {
-    double cost = linearise(problem);
-    for (int i = 0; i < iterations; ++i) {
-      normal = problem.information;
-      normal.topLeftCorner<9, 9>() += problem.normal;
-      BeliefVector gradient = -problem.information * problem.distance();
-      gradient.head<9>() += problem.gradient;
-      BeliefVector step = normal.llt().solve(gradient);
-      const PoseBelief start = problem.now;
-      const double before = cost;
-      for (int half = 0; half <= kHalvings; ++half) {
-        problem.now = problem.moved(step);
-        cost = linearise(problem);
-        if (cost <= before + 1e-9) break;
-        if (half == kHalvings) {
-          problem.now = start;
-          cost = linearise(problem);
-        } else {
-          problem.now = start;
-          step *= 0.5;
-        }
-      }
-      if (before - cost < 1e-3 * (1.0 + cost) && i > 0) break;
-    }
-    normal = problem.information;
-    normal.topLeftCorner<9, 9>() += problem.normal;
-    return cost;
-  };
 
   report.landmarks = options.useLandmarks ? static_cast<int>(frame.landmarks().size()) : 0;
   double cost = 0.0;
   if (report.landmarks > 0) {
-    cost = iterate(options.iterations);
-    problem.now.covariance = normal.llt().solve(BeliefMatrix::Identity());
+    cost = solve(problem, options.iterations);
+    problem.now.covariance = problem.posteriorInformation().llt().solve(BeliefMatrix::Identity());
   }
   if (options.useLines && !frame.lines().empty()) {
     matchLines(problem);
     problem.useLines = true;
-    cost = iterate(options.iterations);
+    cost = solve(problem, options.iterations);
     for (std::size_t i = 0; i < frame.lines().size(); ++i) report.lines += matches_[i] >= 0 ? 1 : 0;
   }
   report.residuals = problem.residuals;
   report.cost = cost;
   report.measurementCost = problem.measurementCost;
   if (report.residuals == 0) return report;
-  const auto factor = normal.llt();
+  const auto factor = problem.posteriorInformation().llt();
   const auto priorFactor = problem.information.llt();
   for (int i = 0; i < kBeliefStates; ++i) {
     report.logVolume += std::log(factor.matrixLLT()(i, i)) - std::log(priorFactor.matrixLLT()(i, i));

@@ -161,7 +161,9 @@ const WorldState& WorldModel::update(const protocol::Percept& percept) {
   state.field = stages.localization.map().geometry();
   if (stages.localization.lastCorrection() == state.time) {
     stages.body.correctTilt(stages.localization.tiltCorrection(), state.body);
-    if (stages.game.noticePlace(stages.localization.belief().p_WR.x(), state.game)) {
+    const PoseBelief& belief = stages.localization.belief();
+    const bool sure = std::sqrt(belief.covariance(kPositionState, kPositionState)) < kLocalizedSigma;
+    if (sure && stages.game.noticePlace(belief.p_WR.x(), state.game)) {
       stages.ball.mirror();
       stages.players.mirror(state);
     }

@@ -69,6 +69,7 @@ class PoseFit {
   struct Problem;
   void matchLines(const Problem& problem);
   double linearise(Problem& problem) const;
+  double solve(Problem& problem, int iterations) const;
 
   std::array<int, VisionFrame::kMaximumLines> matches_{};
 };
