@@ -15,6 +15,7 @@ int run(int argc, char** argv) {
   nonet::app::addMatchCommand(app, exitCode);
   nonet::app::addReplayCommand(app, exitCode);
   nonet::app::addFidelityCommand(app, exitCode);
+  nonet::app::addBenchCommand(app, exitCode);
   nonet::app::addOptimizeCommand(app, exitCode);
   nonet::app::addSkillCommand(app, exitCode);
   nonet::app::addWalkReportCommand(app, exitCode);

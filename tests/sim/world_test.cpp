@@ -7,6 +7,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
+#include "nonet/sim/world_episode.h"
 
 namespace nonet::sim {
 namespace {
@@ -124,6 +125,15 @@ TEST(World, NumbersThatAreNotFiniteAreIgnored) {
   world.setJointSpeed(robot, JointId::LLeg3, nan);
   step(world, 10);
   EXPECT_TRUE(world.bodyPose(robot, BodyId::Torso).position.allFinite());
+}
+
+// Kept in the repository: a change that has no effect on the physics and the sensors keeps this number, a
+// change that has one must say so and bring the new one (`nonet bench` prints it).
+TEST(World, TheFixedEpisodeKeepsItsSignature) {
+  constexpr std::uint64_t kSignature = 0xa403c0c844f7468eULL;
+  for (const int threads : {1, 3}) {
+    EXPECT_EQ(runFixedEpisode(WorldSettings{.threads = threads}, 5, 150, true).signature, kSignature);
+  }
 }
 
 // From the same state both steppers must find the same velocities: the solution of the equations is unique.

@@ -11,6 +11,7 @@ void addServeCommand(CLI::App& app, int& exitCode);
 void addMatchCommand(CLI::App& app, int& exitCode);
 void addReplayCommand(CLI::App& app, int& exitCode);
 void addFidelityCommand(CLI::App& app, int& exitCode);
+void addBenchCommand(CLI::App& app, int& exitCode);
 void addOptimizeCommand(CLI::App& app, int& exitCode);
 void addSkillCommand(CLI::App& app, int& exitCode);
 void addWalkReportCommand(CLI::App& app, int& exitCode);
