@@ -1,0 +1,146 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "nonet/motion/head_control.h"
+#include "nonet/motion/watch.h"
+
+namespace nonet::motion {
+namespace {
+
+using model::index;
+using model::JointId;
+
+class Head : public testing::Test {
+ protected:
+  Head() { follow(); }
+  // The neck follows every target at once.
+  void follow() {
+    body_.cycleTime = kCycleTime;
+    body_.joints = targets_.angles;
+    model::forwardKinematics(model_, body_.joints, body_.bodies);
+  }
+  void step(const HeadRequest& request) {
+    before_ = targets_.angles;
+    control_.update(body_, request, targets_);
+    follow();
+  }
+  double pan() const { return targets_.angles[index(JointId::Head1)]; }
+  double lastStep() const {
+    return std::max(std::abs(pan() - before_[index(JointId::Head1)]),
+                    std::abs(targets_.angles[index(JointId::Head2)] - before_[index(JointId::Head2)]));
+  }
+
+  const model::RobotModel& model_ = model::robotModel(0);
+  HeadParameters parameters_;
+  HeadControl control_{model_, parameters_};
+  world::BodyState body_;
+  JointTargets targets_;
+  model::JointArray before_{};
+};
+
+TEST_F(Head, PointsTheCameraAxisAtThePoint) {
+  for (const Vector3& p_RP : {Vector3(2.0, 1.0, -0.3), Vector3(1.0, -2.0, 0.2), Vector3(0.5, 0.1, -0.2)}) {
+    HeadRequest request;
+    request.kind = HeadRequest::Kind::Point;
+    request.p_RP = p_RP;
+    for (int i = 0; i < 60; ++i) step(request);
+    const Pose3& X_RC = model::cameraPose(body_.bodies);
+    const Vector3 direction = (X_RC.inverse() * p_RP).normalized();
+    EXPECT_GT(direction.x(), std::cos(0.02)) << p_RP.transpose();
+  }
+}
+
+TEST_F(Head, NeverTurnsFasterThanItsSpeedNorIntoTheStops) {
+  HeadRequest request;
+  request.kind = HeadRequest::Kind::Look;
+  for (int i = 0; i < 200; ++i) {
+    request.pan = i % 40 < 20 ? 3.0 : -3.0;
+    request.tilt = i % 30 < 15 ? 2.0 : -2.0;
+    step(request);
+    EXPECT_LE(lastStep(), parameters_.maxSpeed * kCycleTime + 1e-12);
+    for (const JointId id : {JointId::Head1, JointId::Head2}) {
+      EXPECT_GT(targets_.angles[index(id)], model_.joint(id).low + 0.05);
+      EXPECT_LT(targets_.angles[index(id)], model_.joint(id).high - 0.05);
+    }
+  }
+}
+
+TEST_F(Head, ScanSweepsBothSidesFromWhereverItBegins) {
+  HeadRequest look;
+  look.kind = HeadRequest::Kind::Look;
+  look.pan = 0.9;
+  for (int i = 0; i < 50; ++i) step(look);
+  double low = 0.0;
+  double high = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    step(HeadRequest{});
+    low = std::min(low, pan());
+    high = std::max(high, pan());
+    EXPECT_LE(lastStep(), parameters_.maxSpeed * kCycleTime + 1e-12);
+  }
+  EXPECT_NEAR(low, -parameters_.scanPan, 0.05);
+  EXPECT_NEAR(high, parameters_.scanPan, 0.05);
+}
+
+world::WorldState seenBall() {
+  world::WorldState world;
+  world.time = 10.0;
+  world.self.height = 0.34;
+  world.self.lastCorrection = 10.0;
+  world.ball.known = true;
+  world.ball.lastSeen = 9.98;
+  world.ball.p_RB = Vector2(1.0, 0.5);
+  world.ball.p_FB = Vector3(1.0, 0.5, 0.04);
+  return world;
+}
+
+TEST(Watch, LooksWhereTheBallWillBe) {
+  world::WorldState world = seenBall();
+  world.self.X_FR.rotation = 0.5 * kPi;
+  world.ball.v_FB = Vector3(0.0, 2.0, 0.0);  // away from the robot
+  Watch watch;
+  const HeadRequest request = watch.update(world);
+  ASSERT_EQ(request.kind, HeadRequest::Kind::Point);
+  EXPECT_LT((request.p_RP - Vector3(1.0 + 2.0 * WatchParameters{}.lookAhead, 0.5, 0.04 - 0.34)).norm(), 1e-9);
+}
+
+TEST(Watch, AllowsForTheLeanOfTheTorso) {
+  world::WorldState world = seenBall();
+  world.body.pitch = 0.3;
+  Watch watch;
+  const HeadRequest request = watch.update(world);
+  // Leaning forward by 0.3 rad, what lies ahead on the ground appears higher.
+  const Vector3 back = Eigen::AngleAxisd(0.3, Vector3::UnitY()) * request.p_RP;
+  EXPECT_LT((back - Vector3(1.0, 0.5, -0.30)).norm(), 1e-9);
+}
+
+TEST(Watch, SearchesALostBall) {
+  world::WorldState world = seenBall();
+  Watch watch;
+  world.time = 20.0;
+  world.self.lastCorrection = 20.0;
+  EXPECT_EQ(watch.update(world).kind, HeadRequest::Kind::Scan);
+  world.ball.known = false;
+  world.ball.lastSeen = 20.0;
+  EXPECT_EQ(watch.update(world).kind, HeadRequest::Kind::Scan);
+}
+
+TEST(Watch, GlancesAroundWithoutLandmarksAndComesBack) {
+  world::WorldState world = seenBall();
+  Watch watch;
+  int glances = 0;
+  int looks = 0;
+  for (int i = 0; i < 500; ++i) {
+    world.time += kCycleTime;
+    world.ball.lastSeen = world.time;
+    const bool glance = watch.update(world).kind == HeadRequest::Kind::Look;
+    (glance ? glances : looks) += 1;
+    if (i * kCycleTime < WatchParameters{}.glanceAfter - 0.1) EXPECT_FALSE(glance);
+  }
+  EXPECT_GT(glances, 50);
+  EXPECT_GT(looks, 2 * glances);
+}
+
+}  // namespace
+}  // namespace nonet::motion
