@@ -314,7 +314,8 @@ void MonitorStream::writeBody(const AgentInfo& agent, const model::BodySpec& bod
   const std::string team = !known                                   ? "matTeam"
                            : agent.side == protocol::TeamSide::Left ? "matLeft"
                                                                     : "matRight";
-  const std::string type = fmt::format("matType{}", agent.robotType);
+  // The meshes of types 1 to 3 have a material of their own, those of type 4 have none.
+  const std::string type = agent.robotType == 4 ? "" : fmt::format("matType{} ", agent.robotType);
   const std::string_view name = model::bodyName(body.id);
   const auto turned = [&](std::string_view file, std::string_view materials) {
     if (form == Form::Whole) {
@@ -330,7 +331,7 @@ void MonitorStream::writeBody(const AgentInfo& agent, const model::BodySpec& bod
   switch (body.id) {
     case BodyId::Torso: {
       turned(fmt::format("naobody{}.obj", agent.robotType),
-             fmt::format("{} {} {} naowhite", number, team, type));
+             fmt::format("{} {} {}naowhite", number, team, type));
       const int visible = agent.selected ? 1 : 0;
       const std::string wasVisible = fmt::format(" (setVisible {})", visible);
       if (form == Form::Whole) {
@@ -351,7 +352,7 @@ void MonitorStream::writeBody(const AgentInfo& agent, const model::BodySpec& bod
     case BodyId::RUpperArm:
     case BodyId::LUpperArm:
       return mesh(form, fmt::format("{}{}.obj", name, agent.robotType), even(0.07F),
-                  fmt::format("{} {} naowhite", team, type));
+                  fmt::format("{} {}naowhite", team, type));
     case BodyId::RLowerArm:
     case BodyId::LLowerArm:
       return mesh(form, fmt::format("{}.obj", name), even(0.05F), fmt::format("{} naowhite", team));
@@ -362,7 +363,7 @@ void MonitorStream::writeBody(const AgentInfo& agent, const model::BodySpec& bod
     case BodyId::RShank:
     case BodyId::LShank:
       return mesh(form, fmt::format("{}{}.obj", name, agent.robotType), even(0.08F),
-                  fmt::format("{} {} naowhite", team, type));
+                  fmt::format("{} {}naowhite", team, type));
     case BodyId::RFoot:
     case BodyId::LFoot:
       return mesh(form, fmt::format("{}.obj", name),

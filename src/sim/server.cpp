@@ -192,7 +192,8 @@ void Server::Implementation::acceptMonitors() {
       MonitorLink& added = *link;
       monitors.push_back(std::move(link));
       spdlog::info("server: monitor {} connected", added.connection->peer());
-      added.needsFull = !added.connection->send(stream.full());
+      // The only monitor starts the stream anew; others must not lose what they have.
+      added.needsFull = !added.connection->send(monitors.size() == 1 ? stream.next(true) : stream.full());
       added.connection->start([&added](std::string_view message) { added.commands.emplace_back(message); },
                               [&added] { return added.commands.size() >= kMaxQueuedMessages; });
     } else {

@@ -17,7 +17,8 @@ const protocol::Percept* Lobby::receive(const protocol::Effectors& message) {
     scene.scene = scene_;
     world_->actAsReceived(agent_, scene);
     world_->step();                                        // builds the robot
-    world_->step();                                        // sends the message made after that
+    world_->step();                                        // makes its first message
+    world_->step();                                        // sends it
     if (world_->sense(agent_) == nullptr) scene_.reset();  // no such robot: it may try again
     return world_->sense(agent_);
   }

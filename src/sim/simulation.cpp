@@ -270,8 +270,9 @@ void Simulation::Implementation::listVisiblePlayers() {
 void Simulation::Implementation::makeSenses(Agent& agent) {
   const int count = agent.senseCount++;
   const Player* player = playerOf(agent);
-  agent.hasMade = player != nullptr;
-  if (player == nullptr) return;
+  // The server finds a new robot's perceptors one cycle after it was built: its first message is made then.
+  agent.hasMade = player != nullptr && ++agent.robotCycles > 1;
+  if (!agent.hasMade) return;
   protocol::Percept& percept = agent.made;
   percept.clear();
   percept.time = protocol::roundToWire(serverTime);

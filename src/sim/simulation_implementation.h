@@ -31,6 +31,7 @@ struct Agent {
   AgentSensors sensors{Vector3f(Vector3f::Zero())};  // drawn anew when the robot is built
   Ear ear;
   int senseCount = 0;      // messages made since the connection, those before the robot included
+  int robotCycles = 0;     // cycles since the robot was built
   bool announced = false;  // side and number have been told
   bool hasMade = false;
   bool hasSent = false;

@@ -38,6 +38,7 @@ void plainParts(Agent& agent, Plain&& plain) {
   plain(agent.sensors);
   plain(agent.ear);
   plain(agent.senseCount);
+  plain(agent.robotCycles);
   plain(agent.announced);
   plain(agent.hasMade);
   plain(agent.hasSent);

@@ -275,6 +275,9 @@ TEST(MonitorStream, ChangesOfTheSceneBringAFullMessage) {
   match.step();
   const std::string text = stream.next();
   EXPECT_THAT(text, ::testing::HasSubstr("matNum matTeam matType0 naowhite")) << "before init";
+  EXPECT_THAT(text, ::testing::HasSubstr("(resetMaterials matNum7 matLeft naowhite)"))
+      << "type 4 has no material";
+  EXPECT_THAT(text, ::testing::HasSubstr("(resetMaterials matNum3 matRight matType2 naowhite)"));
 }
 
 TEST(MonitorStream, EnvironmentAndGameStateAsTheFactsSay) {

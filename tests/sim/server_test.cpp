@@ -224,6 +224,7 @@ std::vector<std::string> matchInProcess(int cycles) {
     agents[i] = simulation.enter(*lobbies[i]->scene(), *lobbies[i]->init());
   }
   simulation.step();
+  simulation.step();
   for (int cycle = 1; cycle <= cycles; ++cycle) {
     simulation.step();
     for (std::size_t i = 0; i < agents.size(); ++i) {

@@ -43,6 +43,7 @@ AgentHandle introduce(Simulation& simulation, int type, int unum, std::string_vi
   simulation.act(agent, sceneMessage(type));
   simulation.step();
   simulation.step();
+  simulation.step();
   simulation.act(agent, initMessage(unum, team));
   simulation.step();
   return agent;
@@ -57,7 +58,9 @@ TEST(Handshake, NoMessageBeforeARobotExistsAndNumberOnceInTheSecondAfterInit) {
   simulation.step();
   EXPECT_EQ(simulation.sense(agent), nullptr);
   simulation.step();
-  ASSERT_NE(simulation.sense(agent), nullptr);
+  EXPECT_EQ(simulation.sense(agent), nullptr);
+  simulation.step();
+  ASSERT_NE(simulation.sense(agent), nullptr) << "two cycles after the robot was built";
   EXPECT_FALSE(simulation.sense(agent)->game.unum);
 
   simulation.act(agent, initMessage(7, "A"));
@@ -151,7 +154,7 @@ TEST(Handshake, RefusedInitsDropTheRobotFromTheSky) {
     const Vector3f torso = simulation.world().bodyPosition(info.robot, model::BodyId::Torso);
     EXPECT_NEAR(torso.z(), 10.0, 0.01) << c.why;
     for (int i = 0; i < 4; ++i) simulation.step();
-    EXPECT_EQ(textOf(simulation, agent).find("(team "), std::string::npos) << c.why;
+    EXPECT_EQ(textOf(simulation, agent).find("(unum "), std::string::npos) << c.why;
     simulation.disconnect(agent);
     simulation.step();
   }
@@ -393,6 +396,7 @@ TEST(Hear, OneMessageOfEachTeamEveryTwoCycles) {
   const AgentHandle left2 = scenario.add(TeamSide::Left, 2);
   const AgentHandle left3 = scenario.add(TeamSide::Left, 3);
   const AgentHandle right1 = scenario.add(TeamSide::Right, 1);
+  scenario.step(2);
   std::vector<std::string> atMate;
   std::vector<std::string> atOpponent;
   int self = 0;

@@ -73,7 +73,7 @@ class Simulation {
   /// The same for effectors that were read from text.
   void actAsReceived(AgentHandle agent, const protocol::Effectors& effectors);
   /// The message that the server sent in the last cycle (it was made at the end of the cycle before); false
-  /// if there was none, because the agent has no robot or has had it for less than a cycle. The values equal
+  /// if there was none, because the agent has no robot or got it less than two cycles ago. The values equal
   /// those of the text to the last bit.
   bool sense(AgentHandle agent, protocol::Percept& percept) const;
   /// The same without a copy; nullptr if there was none. Valid until the next step.
