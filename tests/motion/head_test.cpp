@@ -136,7 +136,9 @@ TEST(Watch, GlancesAroundWithoutLandmarksAndComesBack) {
     world.ball.lastSeen = world.time;
     const bool glance = watch.update(world).kind == HeadRequest::Kind::Look;
     (glance ? glances : looks) += 1;
-    if (i * kCycleTime < WatchParameters{}.glanceAfter - 0.1) EXPECT_FALSE(glance);
+    if (i * kCycleTime < WatchParameters{}.glanceAfter - 0.1) {
+      EXPECT_FALSE(glance);
+    }
   }
   EXPECT_GT(glances, 50);
   EXPECT_GT(looks, 2 * glances);
