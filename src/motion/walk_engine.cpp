@@ -66,7 +66,7 @@ void WalkEngine::update(const world::BodyState& body, const WalkParameters& para
   if (!feetPlaced_) placeFeet();
   const Tilt tilt = tiltError(body);
   updateStepSize(body.cycleTime / kCycleTime, speed, walk);
-  advancePhase(body.cycleTime, walk, speed);
+  advancePhase(body.cycleTime, walk, speed, tilt);
   moveFrame(body.cycleTime);
   if (mode_ != Mode::Standing) moveSwingFoot(tilt);
 
@@ -123,11 +123,12 @@ void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
   step_ = scaled(wanted_, std::clamp((p.errMax - trace_.comError) / range, 0.0, 1.0));
 }
 
-void WalkEngine::advancePhase(double cycleTime, bool walk, const Pose2& speed) {
+void WalkEngine::advancePhase(double cycleTime, bool walk, const Pose2& speed, const Tilt& tilt) {
   if (mode_ == Mode::Standing) {
-    if (!walk) return;
-    // The first step is made by the foot on the side of the motion.
-    const double toLeft = speed.translation.y() + 0.1 * speed.rotation;
+    const bool leans = std::max(std::abs(tilt.pitch), std::abs(tilt.roll)) > parameters_.balanceTilt;
+    if (!walk && !leans) return;
+    // The first step is made by the foot on the side of the motion, or of the lean.
+    const double toLeft = walk ? speed.translation.y() + 0.1 * speed.rotation : -tilt.roll;
     stance_ = toLeft >= 0.0 ? Side::Right : Side::Left;
     swingStart_ = feet_[index(model::other(stance_))];
     phase_ = 0.0;

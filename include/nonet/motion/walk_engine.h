@@ -68,7 +68,7 @@ class WalkEngine {
     double rollRate = 0.0;
   };
 
-  void advancePhase(double cycleTime, bool walk, const Pose2& speed);
+  void advancePhase(double cycleTime, bool walk, const Pose2& speed, const Tilt& tilt);
   void updateStepSize(double cycles, const Pose2& speed, bool walk);
   void moveFrame(double cycleTime);
   void moveSwingFoot(const Tilt& tilt);

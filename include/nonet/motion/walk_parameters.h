@@ -56,6 +56,7 @@ struct WalkParameters {
   // Feedback
   double errNorm = 0.03;
   double errMax = 0.08;
+  double balanceTilt = 0.15;
   double comDelay = 0.04;
   double tiltDelay = 0.0;
   double hipPitchGain = 0.0;
@@ -260,6 +261,12 @@ struct WalkParameters {
           self.errNorm);
     visit({"errMax", Unit::Metre, {0.001, 2.0}, search(0.02, 0.3), "Error at which steps are zero (err_max)"},
           self.errMax);
+    visit({"balanceTilt",
+           Unit::Radian,
+           {0.02, 3.2},
+           fixed,
+           "A standing robot that leans more than this steps in place until it is calm"},
+          self.balanceTilt);
     visit({"comDelay", Unit::Second, {0.0, 0.14}, fixed, "From a target to its measurement"}, self.comDelay);
     visit({"tiltDelay", Unit::Second, {-0.1, 0.2}, search(0.0, 0.06), "Look ahead of the tilt by its rate"},
           self.tiltDelay);
