@@ -121,6 +121,7 @@ void RobotTrial::settle(const Pose2& X_FR) {
   const sim::Vector3f now = t.physics.bodyPosition(t.robot, BodyId::Torso);
   t.physics.moveRobot(t.robot, sim::Vector3f(static_cast<float>(X_FR.translation.x()),
                                              static_cast<float>(X_FR.translation.y()), now.z()));
+  run(motion::MotionRequest{}, kCycleTime);  // the scene shows the move after the next step
 }
 
 void RobotTrial::step(const motion::MotionRequest& request, const motion::HeadRequest& head) {
