@@ -12,7 +12,7 @@ struct FormationParameters {
   double forwardAside = 2.5;
   double wingBehind = 2.5;
   double wingAside = 3.0;
-  double stopperBehind = 1.5;
+  double stopperBehind = 2.5;
   double supporterBehind = 4.0;
   double firstBackFromGoal = 3.0;
   double secondBackFromGoal = 5.5;
