@@ -42,12 +42,15 @@ inline constexpr int kVoteSize = 10;
 /// vote[player] = position, a permutation of 0..9.
 using RoleVote = std::array<std::uint8_t, kVoteSize>;
 
+/// A sighting of the ball as told to the team mates.
+struct SayBall {
+  Vector2 p_FB = Vector2::Zero();  // m
+  Vector2 v_FB = Vector2::Zero();  // m/s
+  double age = 0.0;                // s since the sender saw it
+};
+
 struct SayMessage {
-  struct Ball {
-    Vector2 p_FB = Vector2::Zero();  // m
-    Vector2 v_FB = Vector2::Zero();  // m/s
-    double age = 0.0;                // s since the sender saw it
-  };
+  using Ball = SayBall;
   int unum = 0;        // of the sender, 1..11
   Pose2 X_FR;          // own pose, field frame of the team
   double sigma = 0.0;  // m; decoded: 0.1, 0.3, 1 or 3
