@@ -19,6 +19,8 @@ namespace {
 struct WalkReportArguments {
   lab::AgentChoice choice;
   lab::WalkReportSettings settings;
+  lab::ServerAddress server;
+  bool overTcp = false;
   bool json = false;
   std::string svgFile;
   std::string traceFile;
@@ -38,6 +40,7 @@ int run(WalkReportArguments arguments) {
   settings.setup.motion = config.parameters.motion;
   settings.setup.world = config.parameters.world;
   settings.setup.skillFolder = config.skillFolder;
+  if (arguments.overTcp) settings.server = arguments.server;
   if (!arguments.traceFile.empty()) {
     writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));
   }
@@ -61,6 +64,10 @@ void addWalkReportCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(1, 10000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
+  command->add_flag("--tcp", arguments->overTcp, "Measure on a running, empty server instead of in process");
+  command->add_option("--host", arguments->server.host, "Its host");
+  command->add_option("--port", arguments->server.port, "Its agent port");
+  command->add_option("--monitor-port", arguments->server.monitorPort, "Its monitor port");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->add_option("--svg", arguments->svgFile, "Write a polar plot of the speeds");
   command->add_option("--trace", arguments->traceFile, "Write a plot of one second of fast walking forward");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "parallel.h"
@@ -30,7 +31,7 @@ struct Walk {
 class NoisyPose {
  public:
   NoisyPose(const WalkReportSettings& settings, Random random) : settings_(&settings), random_(random) {}
-  Pose2 of(const RobotTrial& trial) {
+  Pose2 of(const TrialRobot& trial) {
     if (cycle_++ % 3 == 0) {
       noise_ =
           Pose2(random_.normal(0.0, settings_->positionNoise), random_.normal(0.0, settings_->positionNoise),
@@ -48,15 +49,13 @@ class NoisyPose {
 };
 
 // Stands somewhere, for a random while, so that trials differ in the phase of vision and in the last digits.
-void begin(RobotTrial& trial, Random& random) {
+void begin(TrialRobot& trial, Random& random) {
   trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
   trial.run(MotionRequest{}, random.uniform(0.02, 0.4));
 }
 
-Walk walkInDirection(const WalkReportSettings& settings, double direction, std::uint64_t seed) {
-  TrialSetup setup = settings.setup;
-  setup.seed = seed;
-  RobotTrial trial(setup);
+Walk walkInDirection(TrialRobot& trial, const WalkReportSettings& settings, double direction,
+                     std::uint64_t seed) {
   Random random(seed);
   begin(trial, random);
   NoisyPose noisy(settings, random.fork(1));
@@ -85,10 +84,7 @@ Walk walkInDirection(const WalkReportSettings& settings, double direction, std::
   return walk;
 }
 
-Walk walkTenSeconds(const WalkReportSettings& settings, std::uint64_t seed) {
-  TrialSetup setup = settings.setup;
-  setup.seed = seed;
-  RobotTrial trial(setup);
+Walk walkTenSeconds(TrialRobot& trial, const WalkReportSettings& settings, std::uint64_t seed) {
   Random random(seed);
   begin(trial, random);
   NoisyPose noisy(settings, random.fork(1));
@@ -115,10 +111,7 @@ Walk walkTenSeconds(const WalkReportSettings& settings, std::uint64_t seed) {
   return walk;
 }
 
-Walk turnOnTheSpot(const WalkReportSettings& settings, double sense, std::uint64_t seed) {
-  TrialSetup setup = settings.setup;
-  setup.seed = seed;
-  RobotTrial trial(setup);
+Walk turnOnTheSpot(TrialRobot& trial, double sense, std::uint64_t seed) {
   Random random(seed);
   begin(trial, random);
   MotionRequest request;
@@ -169,16 +162,24 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
   const int count = directions + trials + 2 * trials;
   std::vector<Walk> walks(static_cast<std::size_t>(count));
   const Random seeds(settings.seed);
-  inParallel(count, settings.threads, [&](int i) {
+  std::unique_ptr<TrialRobot> remote;
+  if (settings.server) remote = connectTrialRobot(settings.setup, *settings.server);
+  inParallel(count, remote ? 1 : settings.threads, [&](int i) {
     const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
+    std::unique_ptr<TrialRobot> own;
+    if (!remote) {
+      TrialSetup setup = settings.setup;
+      setup.seed = seed;
+      own = makeTrialRobot(setup);
+    }
+    TrialRobot& robot = remote ? *remote : *own;
     Walk& walk = walks[static_cast<std::size_t>(i)];
     if (i < directions) {
-      const int direction = i / trials;
-      walk = walkInDirection(settings, 2.0 * kPi * direction / kWalkDirections, seed);
+      walk = walkInDirection(robot, settings, 2.0 * kPi * (i / trials) / kWalkDirections, seed);
     } else if (i < directions + trials) {
-      walk = walkTenSeconds(settings, seed);
+      walk = walkTenSeconds(robot, settings, seed);
     } else {
-      walk = turnOnTheSpot(settings, (i - directions) % 2 == 0 ? 1.0 : -1.0, seed);
+      walk = turnOnTheSpot(robot, (i - directions) % 2 == 0 ? 1.0 : -1.0, seed);
     }
   });
 

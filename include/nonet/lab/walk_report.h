@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "nonet/lab/robot_trial.h"
+#include "nonet/lab/trial_robot.h"
 
 namespace nonet::lab {
 
@@ -17,9 +19,10 @@ struct WalkReportSettings {
   TrialSetup setup;
   int trials = 10;  // per measure
   std::uint64_t seed = 1;
-  int threads = 0;               // 0: all processors; the result does not depend on it
-  double positionNoise = 0.025;  // m, standard deviation
-  double headingNoise = 0.02;    // rad
+  int threads = 0;                      // 0: all processors; the result does not depend on it
+  double positionNoise = 0.025;         // m, standard deviation
+  std::optional<ServerAddress> server;  // measure there, one walk after the other, instead of in process
+  double headingNoise = 0.02;           // rad
 };
 
 /// Mean and half width of the 95 % confidence interval of the mean.
