@@ -58,6 +58,7 @@ int check(const SkillArguments& arguments) {
   if (wrong > 0) return 1;
   // Calls are looked up among the files given and in the folders they come from.
   std::vector<std::string> folders;
+  folders.reserve(files.size());
   for (const std::string& file : files) {
     folders.push_back(std::filesystem::path(file).parent_path().string());
   }

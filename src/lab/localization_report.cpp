@@ -20,7 +20,7 @@ LocalizationReport::ErrorQuantiles quantilesOf(std::vector<double> sample) {
   if (sample.empty()) return result;
   std::sort(sample.begin(), sample.end());
   const auto at = [&](double share) {
-    return sample[static_cast<std::size_t>(share * static_cast<double>(sample.size() - 1) + 0.5)];
+    return sample[static_cast<std::size_t>(std::lround(share * static_cast<double>(sample.size() - 1)))];
   };
   result.median = at(0.5);
   result.p95 = at(0.95);

@@ -30,7 +30,7 @@ struct InProcessPlayer {
 
 // The handshake that a server with a lobby plays, so that a match is the same as over TCP to the last bit.
 void enter(std::vector<InProcessPlayer>& players, sim::Simulation& simulation, std::uint64_t seed) {
-  std::vector<protocol::Effectors::Init> inits;
+  std::vector<protocol::InitEffector> inits;
   for (InProcessPlayer& player : players) {
     sim::Lobby lobby(simulation.settings(), seed);
     const protocol::Percept* percept = lobby.receive(player.agent->hello());

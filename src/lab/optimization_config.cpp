@@ -1,5 +1,6 @@
 #include "nonet/lab/optimization_config.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -117,6 +118,7 @@ std::vector<std::uint64_t> trialSeeds(std::uint64_t runSeed, int generation, int
   Random random =
       Random(runSeed).fork(2U * static_cast<std::uint64_t>(generation) + static_cast<std::uint64_t>(stream));
   std::vector<std::uint64_t> seeds;
+  seeds.reserve(static_cast<std::size_t>(std::max(count, 0)));
   for (int i = 0; i < count; ++i) seeds.push_back(random.next() >> 32U);
   return seeds;
 }

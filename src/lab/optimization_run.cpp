@@ -124,7 +124,8 @@ OptimizationRun OptimizationRun::create(const std::string& folder, const Optimiz
   fs::create_directories(folder);
   run.lock_ = lockFolder(folder);
   fs::remove(folder + kCheckpoint);
-  std::ofstream(folder + kGenerations, std::ios::binary | std::ios::trunc);
+  std::ofstream generations(folder + kGenerations, std::ios::binary | std::ios::trunc);
+  generations.close();
   writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
   return run;
 }
@@ -188,6 +189,7 @@ OptimizationRun::Values OptimizationRun::evaluateGeneration(Evaluator& evaluator
                    [&](std::size_t a, std::size_t b) { return mean(values[a]) > mean(values[b]); });
   order.resize((order.size() + 1) / 2);
   std::vector<Eigen::VectorXd> better;
+  better.reserve(order.size());
   for (const std::size_t k : order) better.push_back(all[k]);
   const Values more = evaluate(evaluator, better, {seeds.begin() + half, seeds.end()});
   for (std::size_t i = 0; i < order.size(); ++i)

@@ -173,7 +173,7 @@ std::string writeOptimizationReport(const std::string& folder, const std::string
   html += chart("Step size, powers of ten", {{"sigma", "#06c", sigma}});
   html += "<h2>Parameters: centre of the distribution, within one standard deviation</h2>\n";
   html += parameterPaths(lines, space) + "</body></html>\n";
-  const std::string path = folder + "/report.html";
+  std::string path = folder + "/report.html";
   writeAtomically(path, html);
   return path;
 }

@@ -11,7 +11,6 @@ namespace nonet::lab {
 namespace {
 
 using model::BodyId;
-using model::JointId;
 
 constexpr double kStartHeight = 0.4;  // m, as after a beam (server facts 4.6)
 

@@ -41,7 +41,7 @@ bool readScene(CommandReader& reader, Effectors& effectors) {
   if (!reader.atom(file)) {
     return false;
   }
-  Effectors::Scene scene;
+  SceneEffector scene;
   if (file != kTypedSceneFile && !scene.file.assign(file)) {
     return false;
   }
@@ -54,7 +54,7 @@ bool readScene(CommandReader& reader, Effectors& effectors) {
 }
 
 bool readInit(CommandReader& reader, Effectors& effectors, int& skipped) {
-  Effectors::Init init;
+  InitEffector init;
   const int depth = reader.depth();
   while (reader.open()) {
     std::string_view name;

@@ -72,7 +72,7 @@ class History {
  public:
   explicit History(ReplayServer& server) : server_(server) { server_.connectRobots(); }
 
-  void step(ReplayServer::Answer answer = {}) { server_.step(answer); }
+  void step(const ReplayServer::Answer& answer = {}) { server_.step(answer); }
   void wait(double seconds, const Speeds& speeds = {}) {
     for (int i = 0; i < cyclesOf(seconds); ++i) step({{speeds}, "", ""});
   }

@@ -57,8 +57,8 @@ RecordedRobot::Part partFrom(const json& numbers) {
   }
   part.position = vector(numbers, 12);
   Eigen::Matrix3d rotation;
-  for (int column = 0; column < 3; ++column) {
-    rotation.col(column) = vector(numbers, static_cast<std::size_t>(4 * column));
+  for (std::size_t column = 0; column < 3; ++column) {
+    rotation.col(static_cast<Eigen::Index>(column)) = vector(numbers, 4 * column);
   }
   part.rotation = rotation;
   return part;

@@ -129,7 +129,7 @@ Vector3f GameState::nextStartPosition(TeamSide side, const Settings& settings) {
   const float radius = static_cast<float>(settings.agentRadius);
   const float halfWidth = static_cast<float>(settings.fieldWidth) / 2.0F;
   Vector3f& next = side == TeamSide::Left ? nextLeftStart_ : nextRightStart_;
-  const Vector3f position = next;
+  Vector3f position = next;
   next.y() -= radius * 3.0F;
   if (next.y() < -halfWidth) {
     next.y() = halfWidth - radius * 2.0F;

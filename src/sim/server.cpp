@@ -253,7 +253,7 @@ void Server::Implementation::waitInLobby() {
 void Server::Implementation::startMatch() {
   lobbyOpen = false;
   std::vector<AgentLink*> ready;
-  std::vector<protocol::Effectors::Init> inits;
+  std::vector<protocol::InitEffector> inits;
   for (const auto& link : agents) {
     if (!link->lobby->ready()) continue;
     ready.push_back(link.get());

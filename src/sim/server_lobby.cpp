@@ -33,9 +33,9 @@ const protocol::Percept* Lobby::receive(const protocol::Effectors& message) {
 }
 
 std::vector<std::size_t> entryOrder(const Settings& settings,
-                                    std::span<const protocol::Effectors::Init> players) {
+                                    std::span<const protocol::InitEffector> players) {
   const auto key = [&](std::size_t i) {
-    const protocol::Effectors::Init& player = players[i];
+    const protocol::InitEffector& player = players[i];
     const std::string_view team = player.team;
     const int rank = team == settings.leftTeam ? 0 : team == settings.rightTeam ? 2 : 1;
     return std::tuple(rank, team, player.unum == 0 ? 1 : 0, player.unum);

@@ -138,7 +138,7 @@ void Simulation::Implementation::executeScene(Agent& agent) {
   agent.scene.reset();
 }
 
-void Simulation::Implementation::buildRobot(Agent& agent, const protocol::Effectors::Scene& scene) {
+void Simulation::Implementation::buildRobot(Agent& agent, const protocol::SceneEffector& scene) {
   const std::string_view file = scene.file;
   const bool known =
       file.empty() || file == "rsg/agent/nao/nao.rsg" || file == "rsg/agent/nao/nao_hetero.rsg";
@@ -176,7 +176,7 @@ void Simulation::Implementation::seedFor(Agent& agent, TeamSide side, int unum) 
 }
 
 // Server facts 1.3. Every init moves the robot to its side's next start position, also a refused one.
-void Simulation::Implementation::initialise(Agent& agent, const protocol::Effectors::Init& init) {
+void Simulation::Implementation::initialise(Agent& agent, const protocol::InitEffector& init) {
   const bool entering = playerOf(agent) == nullptr;
   const int type = entering ? agent.scene->robotType : playerOf(agent)->robotType;
   TeamSide side = TeamSide::None;
@@ -334,8 +334,8 @@ AgentHandle Simulation::connect() {
   return implementation_->addAgent().handle;
 }
 
-AgentHandle Simulation::enter(const protocol::Effectors::Scene& scene,
-                              const protocol::Effectors::Init& init) {
+AgentHandle Simulation::enter(const protocol::SceneEffector& scene,
+                              const protocol::InitEffector& init) {
   Agent& agent = implementation_->addAgent();
   agent.enters = true;
   agent.scene = scene;

@@ -22,8 +22,8 @@ struct Agent {
   std::vector<protocol::Effectors> inbox;  // messages for the next cycle
 
   // Deferred effectors: the last action of the cycle counts.
-  std::optional<protocol::Effectors::Scene> scene;
-  std::optional<protocol::Effectors::Init> init;
+  std::optional<protocol::SceneEffector> scene;
+  std::optional<protocol::InitEffector> init;
   std::optional<Pose2> beam;
   bool pass = false;
 
@@ -51,8 +51,8 @@ struct Simulation::Implementation {
   void broadcast(const Player& sender, std::string_view message);
   void executeDeferred(Agent& agent);
   void executeScene(Agent& agent);
-  void buildRobot(Agent& agent, const protocol::Effectors::Scene& scene);
-  void initialise(Agent& agent, const protocol::Effectors::Init& init);
+  void buildRobot(Agent& agent, const protocol::SceneEffector& scene);
+  void initialise(Agent& agent, const protocol::InitEffector& init);
   void seedFor(Agent& agent, TeamSide side, int unum) const;
   void beam(Agent& agent, const Pose2& request);
   void removeGoneAgents();

@@ -15,7 +15,6 @@ namespace nonet::sim {
 namespace {
 
 using model::BodyId;
-using model::JointId;
 using scene::scriptNumber;
 
 // Server facts 3.2, first table.

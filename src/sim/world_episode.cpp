@@ -52,8 +52,9 @@ void command(World& world, RobotHandle robot, int cycle) {
 void place(World& world, int robots, bool rough) {
   for (int i = 0; i < robots; ++i) {
     const RobotHandle robot = world.addRobot(i % model::kRobotTypeCount);
+    const int rowIndex = i / 6;
     const auto column = static_cast<float>(i % 6);
-    const auto row = static_cast<float>(i / 6);
+    const auto row = static_cast<float>(rowIndex);
     const Vector3f apart(2.0F * column - 6.0F, 2.0F * row - 4.0F, 0.45F);
     const Vector3f together(0.25F * column, 0.3F * row, 0.45F);
     world.placeRobot(robot, rough ? together : apart, rough ? 50.0F * static_cast<float>(i) : -90.0F);

@@ -111,7 +111,7 @@ ContactRows rowsFor(PendingContact& pending, double seconds) {
 /// is unlimited here, so that it does not depend on the normal force).
 class ContactProblem {
  public:
-  ContactProblem(Cluster& cluster, double seconds) : cluster_(cluster) {
+  ContactProblem(Cluster& cluster, double seconds) {
     for (PendingContact* pending : cluster.contacts) contacts_.push_back(rowsFor(*pending, seconds));
     const auto size = static_cast<Eigen::Index>(3 * contacts_.size());
     matrix_.resize(size, size);
@@ -230,7 +230,6 @@ class ContactProblem {
     return wrong;
   }
 
-  Cluster& cluster_;
   std::vector<ContactRows> contacts_;
   std::vector<bool> active_;  // per contact: the normal presses
   MatrixXd matrix_;

@@ -43,7 +43,7 @@ Assignment RoleAssigner::assign(std::span<const Vector2> players, std::span<cons
   Assignment assignment{};
   std::uint32_t set = everybody;
   for (int position = n - 1; position >= 0; --position) {
-    const int player = best_[set].lastPlayer;
+    const auto player = static_cast<std::size_t>(best_[set].lastPlayer);
     assignment[player] = position;
     set &= ~(1U << player);
   }

@@ -119,8 +119,8 @@ TEST(MatchWatcher, CountsAFallOnce) {
   choice.minutes = 1.0;
   sim::Simulation simulation(matchSettings(choice), 1);
   MatchWatcher watcher(choice);
-  protocol::Effectors::Scene scene;
-  protocol::Effectors::Init init;
+  protocol::SceneEffector scene;
+  protocol::InitEffector init;
   init.unum = 1;
   init.team.assign(choice.left.name);
   const sim::AgentHandle faller = simulation.enter(scene, init);

@@ -27,8 +27,8 @@ TEST(Effectors, WritesTheServersForms) {
   std::string text = "old";
   writeEffectors(effectors, text);
   EXPECT_EQ(text, "");
-  effectors.scene = Effectors::Scene{3, {}};
-  effectors.init = Effectors::Init{7, TeamName("Nonet")};
+  effectors.scene = SceneEffector{3, {}};
+  effectors.init = InitEffector{7, TeamName("Nonet")};
   effectors.beam = Pose2(-0.5, 7.0, toRadians(-90.0));
   effectors.setSpeed(JointId::LLeg7, -1.5);
   effectors.setSpeed(JointId::Head1, 1.0 / 3.0);

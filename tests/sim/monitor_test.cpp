@@ -270,7 +270,7 @@ TEST(MonitorStream, ChangesOfTheSceneBringAFullMessage) {
   match.step();
   EXPECT_TRUE(full()) << "an agent without robot is an empty node";
   protocol::Effectors scene;
-  scene.scene = protocol::Effectors::Scene{};
+  scene.scene = protocol::SceneEffector{};
   match.sim.act(nobody, scene);
   match.step();
   const std::string text = stream.next();

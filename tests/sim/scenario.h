@@ -32,9 +32,9 @@ class Scenario {
   AgentHandle add(TeamSide side, int unum, int type = 0) {
     // The first name that is used becomes the left team.
     if (side == TeamSide::Right && sim.match().teamLeft.empty()) add(TeamSide::Left, 11, 0);
-    protocol::Effectors::Scene scene;
+    protocol::SceneEffector scene;
     scene.robotType = type;
-    protocol::Effectors::Init init;
+    protocol::InitEffector init;
     init.unum = unum;
     init.team.assign(side == TeamSide::Left ? "L" : "R");
     const AgentHandle agent = sim.enter(scene, init);

@@ -205,7 +205,7 @@ std::vector<std::string> matchInProcess(int cycles) {
   const Settings settings;
   std::vector<std::string> logs(kTeams.size());
   std::vector<std::unique_ptr<Lobby>> lobbies;
-  std::vector<protocol::Effectors::Init> inits;
+  std::vector<protocol::InitEffector> inits;
   std::string text;
   for (std::size_t i = 0; i < kTeams.size(); ++i) {
     lobbies.push_back(std::make_unique<Lobby>(settings, 7));

@@ -13,18 +13,19 @@
 
 namespace nonet::protocol {
 
-struct Effectors {
-  struct Scene {
-    int robotType = 0;
-    InlineString<96> file;  // empty: the Nao description that belongs to robotType
-  };
-  struct Init {
-    int unum = 0;
-    TeamName team;
-  };
+struct SceneEffector {
+  int robotType = 0;
+  InlineString<96> file;  // empty: the Nao description that belongs to robotType
+};
 
-  std::optional<Scene> scene;
-  std::optional<Init> init;
+struct InitEffector {
+  int unum = 0;
+  TeamName team;
+};
+
+struct Effectors {
+  std::optional<SceneEffector> scene;
+  std::optional<InitEffector> init;
   std::optional<Pose2> beam;   // own field frame, m and rad
   model::JointArray speeds{};  // rad/s; valid where the bit in speedsPresent is set
   std::uint32_t speedsPresent = 0;

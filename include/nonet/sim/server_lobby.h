@@ -24,22 +24,22 @@ class Lobby {
   const protocol::Percept* receive(const protocol::Effectors& message);
   /// Scene and init have come.
   bool ready() const { return init_.has_value(); }
-  const std::optional<protocol::Effectors::Scene>& scene() const { return scene_; }
-  const std::optional<protocol::Effectors::Init>& init() const { return init_; }
+  const std::optional<protocol::SceneEffector>& scene() const { return scene_; }
+  const std::optional<protocol::InitEffector>& init() const { return init_; }
 
  private:
   Settings settings_;
   std::uint64_t seed_;
   std::unique_ptr<Simulation> world_;
   AgentHandle agent_ = kNoAgent;
-  std::optional<protocol::Effectors::Scene> scene_;
-  std::optional<protocol::Effectors::Init> init_;
+  std::optional<protocol::SceneEffector> scene_;
+  std::optional<protocol::InitEffector> init_;
 };
 
 /// The order in which these players enter: settings.leftTeam first, or else the team whose name is first in
 /// the alphabet (it will be the left one); within a team by number, "any number" (0) last. Indices into
 /// `players`.
 std::vector<std::size_t> entryOrder(const Settings& settings,
-                                    std::span<const protocol::Effectors::Init> players);
+                                    std::span<const protocol::InitEffector> players);
 
 }  // namespace nonet::sim

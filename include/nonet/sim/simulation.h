@@ -60,7 +60,7 @@ class Simulation {
   /// its noise depends only on seed, side and number: whoever enters whole teams in a fixed order has a
   /// reproducible match, however late or early the agents arrived. A refusal (server facts 1.3) shows as unum
   /// 0 in agents().
-  AgentHandle enter(const protocol::Effectors::Scene& scene, const protocol::Effectors::Init& init);
+  AgentHandle enter(const protocol::SceneEffector& scene, const protocol::InitEffector& init);
   /// The robot is removed in the next cycle.
   void disconnect(AgentHandle agent);
   /// False after disconnect(), and once a trainer has killed the agent.
