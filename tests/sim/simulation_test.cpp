@@ -22,12 +22,12 @@ using protocol::Percept;
 
 Effectors sceneMessage(int type) {
   Effectors effectors;
-  effectors.scene = SceneEffector{type, {}};
+  effectors.scene = protocol::SceneEffector{type, {}};
   return effectors;
 }
 Effectors initMessage(int unum, std::string_view team) {
   Effectors effectors;
-  effectors.init = InitEffector{unum, protocol::TeamName(team)};
+  effectors.init = protocol::InitEffector{unum, protocol::TeamName(team)};
   return effectors;
 }
 std::string textOf(const Simulation& simulation, AgentHandle agent) {
@@ -101,7 +101,7 @@ TEST(Handshake, UnknownSceneFilesAndTypesBuildNothing) {
   Simulation simulation(quietSettings());
   const AgentHandle agent = simulation.connect();
   Effectors file;
-  file.scene = SceneEffector{0, InlineString<96>("rsg/agent/other.rsg")};
+  file.scene = protocol::SceneEffector{0, InlineString<96>("rsg/agent/other.rsg")};
   simulation.act(agent, file);
   simulation.step();
   simulation.act(agent, sceneMessage(5));
@@ -527,7 +527,7 @@ std::string matchOf(const std::vector<std::size_t>& arrival) {
   const std::vector<Who> whos = {{0, 1, "B"}, {1, 2, "B"}, {2, 1, "A"}, {4, 2, "A"}};
   const Settings settings;
   std::vector<std::unique_ptr<Lobby>> lobbies;
-  std::vector<InitEffector> inits;
+  std::vector<protocol::InitEffector> inits;
   std::string log;
   for (const std::size_t i : arrival) {
     lobbies.push_back(std::make_unique<Lobby>(settings, 5));

@@ -45,6 +45,8 @@ struct WalkParameters {
   double fA = 1.0;
   double fS = 0.0;
   double fM = 1.0;
+  double swingStraightness = 0.0;
+  double liftStraightness = 0.0;
   double zPush = 0.0;
   double swingPitch = 0.0;
   double footPitch = 0.0;
@@ -225,6 +227,18 @@ struct WalkParameters {
           self.fS);
     visit({"fM", Unit::None, {0.01, 4.0}, search(0.5, 1.5), "Share of the step in which it moves (f_m)"},
           self.fM);
+    visit({"swingStraightness",
+           Unit::None,
+           {-1.0, 2.0},
+           search(0.0, 1.0),
+           "The swing foot's way over time: 0 = half a cosine, 1 = steady"},
+          self.swingStraightness);
+    visit({"liftStraightness",
+           Unit::None,
+           {-1.0, 2.0},
+           search(0.0, 1.0),
+           "Its lift over time: 0 = a cosine, 1 = up and down at a steady speed"},
+          self.liftStraightness);
     visit({"zPush", Unit::Metre, {-0.1, 0.1}, search(-0.01, 0.01), "Stretch of the stance leg in mid-step"},
           self.zPush);
     visit({"swingPitch",
