@@ -22,6 +22,7 @@ struct WalkReportArguments {
   lab::ServerAddress server;
   bool overTcp = false;
   bool json = false;
+  bool initial = false;
   std::string svgFile;
   std::string traceFile;
 };
@@ -33,6 +34,9 @@ void writeFile(const std::string& file, const std::string& text) {
 }
 
 int run(WalkReportArguments arguments) {
+  arguments.choice.learned = !arguments.initial;
+  if (arguments.overTcp && arguments.settings.courses > 0)
+    throw std::runtime_error("courses are walked in process only: leave out --tcp or --courses");
   const agent::AgentConfig config = lab::makeAgentConfig(arguments.choice, dataFolder());
   lab::WalkReportSettings& settings = arguments.settings;
   settings.seed = arguments.choice.seed;
@@ -62,6 +66,12 @@ void addWalkReportCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingFile);
   command->add_option("--trials", arguments->settings.trials, "Walks per measure")
       ->check(CLI::Range(1, 10000));
+  command
+      ->add_option("--courses", arguments->settings.courses,
+                   "Walk so many obstacle courses of a minute as well: falls, reward, time")
+      ->check(CLI::Range(0, 10000));
+  command->add_flag("--initial", arguments->initial,
+                    "Start from the code's own values, not params/type*.toml");
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
   command->add_flag("--tcp", arguments->overTcp, "Measure on a running, empty server instead of in process");

@@ -25,7 +25,7 @@ agent::AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string&
   config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
   config.startPose = choice.startPose;
   const std::string typeFile = dataFolder + "/params/type" + std::to_string(choice.robotType) + ".toml";
-  if (std::filesystem::exists(typeFile)) config::overlayFile(config.parameters, typeFile);
+  if (choice.learned && std::filesystem::exists(typeFile)) config::overlayFile(config.parameters, typeFile);
   for (const std::string& file : choice.parameterFiles) config::overlayFile(config.parameters, file);
   return config;
 }

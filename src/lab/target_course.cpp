@@ -7,6 +7,8 @@
 
 #include "nonet/math/angle.h"
 
+#include "parallel.h"
+
 namespace nonet::lab {
 
 namespace {
@@ -21,6 +23,7 @@ constexpr double kTurned = 0.1745;          // rad
 constexpr double kTurnWorth = 0.4;          // m per rad: a turn of half a circle counts as 1.26 m
 constexpr double kNoiseHold = 0.2;          // s between new noise
 constexpr double kHeadingGain = 4.0;        // 1/s, of held headings
+constexpr double kLongestLeg = 30.0;        // s, of courses without time limits
 constexpr double kFastest = 3.0;            // m/s; the walk clamps it to what it can do
 constexpr double kFastestTurn = 2.0 * kPi;  // rad/s
 
@@ -168,7 +171,9 @@ class Walker {
     const Vector2 target = (origin * Pose2(leg.target, 0.0)).translation;
     const double heading = start.rotation + leg.turn;
     const double whole = left(leg, start, target, heading);
-    const int cycles = std::max(1, static_cast<int>(std::lround(leg.time / kCycleTime)));
+    const bool open = options_.untilReached && leg.kind != Kind::Stop;
+    const double allowed = open ? kLongestLeg : leg.time;
+    const int cycles = std::max(1, static_cast<int>(std::lround(allowed / kCycleTime)));
     Vector2 noise = Vector2::Zero();
     int used = cycles;
     bool reached = false;
@@ -275,6 +280,31 @@ std::vector<CourseItem> makeCourse(std::uint64_t seed) {
 
 CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options) {
   return Walker(setup, seed, options).run(makeCourse(seed));
+}
+
+CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads) {
+  std::vector<CourseResult> timed(static_cast<std::size_t>(courses));
+  std::vector<CourseResult> open(static_cast<std::size_t>(courses));
+  inParallel(2 * courses, threads, [&](int i) {
+    const int course = i / 2;
+    const std::uint64_t courseSeed = Random(seed).fork(static_cast<std::uint64_t>(course)).next();
+    TrialSetup own = setup;
+    own.seed = courseSeed;
+    CourseOptions options;
+    options.untilReached = i % 2 == 1;
+    auto& results = options.untilReached ? open : timed;
+    results[static_cast<std::size_t>(course)] = runCourse(own, courseSeed, options);
+  });
+  CourseSummary summary;
+  summary.courses = courses;
+  for (const CourseResult& result : timed) {
+    summary.falls += result.falls;
+    summary.reward += result.reward / courses;
+    summary.distance += result.distance / courses;
+    summary.stopDrift += result.stopDrift / courses;
+  }
+  for (const CourseResult& result : open) summary.time += result.time / courses;
+  return summary;
 }
 
 }  // namespace nonet::lab

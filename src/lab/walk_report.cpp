@@ -202,6 +202,9 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
   report.odometryError = collect(directions, directions + trials, &Walk::odometryError);
   report.turn = collect(directions + trials, count, &Walk::steady);
   for (const Walk& walk : walks) report.falls += walk.fell ? 1 : 0;
+  if (settings.courses > 0) {
+    report.course = measureCourses(settings.setup, settings.seed, settings.courses, settings.threads);
+  }
   return report;
 }
 

@@ -91,6 +91,12 @@ std::string walkReportTable(const WalkReport& report) {
   line("turning on the spot", degrees(report.turn), "deg/s");
   line("odometry error (share of way)", report.odometryError, "");
   out += fmt::format("{:<34}{} in {} walks\n\n", "falls", report.falls, report.trials);
+  if (report.course.courses > 0) {
+    const CourseSummary& c = report.course;
+    out += fmt::format("{:<34}{} in {} courses, reward {:.2f}, stops drift {:.2f} m\n", "falls on the course",
+                       c.falls, c.courses, c.reward, c.stopDrift);
+    out += fmt::format("{:<34}{:7.1f} s, every target reached\n\n", "time for a course", c.time);
+  }
   out += "direction     steady m/s         first 3 s m/s      falls\n";
   for (int d = 0; d < kWalkDirections; ++d) {
     const auto at = static_cast<std::size_t>(d);
@@ -110,6 +116,12 @@ std::string walkReportJson(const WalkReport& report) {
   json["odometry_error"] = toJson(report.odometryError);
   json["falls"] = report.falls;
   json["trials"] = report.trials;
+  if (report.course.courses > 0) {
+    const CourseSummary& c = report.course;
+    json["course"] = {{"courses", c.courses},        {"falls", c.falls},
+                      {"reward", c.reward},          {"distance_m", c.distance},
+                      {"stop_drift_m", c.stopDrift}, {"time_s", c.time}};
+  }
   for (int d = 0; d < kWalkDirections; ++d) {
     const auto at = static_cast<std::size_t>(d);
     json["directions"].push_back({{"deg", 360.0 * d / kWalkDirections},

@@ -17,6 +17,7 @@ struct AgentChoice {
   std::string team = "Nonet";
   int robotType = 0;  // 0..4
   std::uint64_t seed = 1;
+  bool learned = true;                      // begin with params/type<robotType>.toml
   std::vector<std::string> parameterFiles;  // overlaid in this order
   std::optional<Pose2> startPose;           // own field frame
 };

@@ -50,8 +50,23 @@ struct CourseResult {
 struct CourseOptions {
   motion::WalkSet set = motion::WalkSet::Automatic;
   int mostFalls = 100;  // then the rest of the course is not walked (and earns nothing)
+  /// Every target is walked to until it is reached (30 s at most): what counts is CourseResult::time.
+  bool untilReached = false;
 };
 
 CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options);
+
+/// What a parameter set makes of many courses.
+struct CourseSummary {
+  int courses = 0;
+  int falls = 0;           // in all courses, as the task counts them
+  double reward = 0.0;     // mean of a course
+  double distance = 0.0;   // m, mean of a course
+  double stopDrift = 0.0;  // m, mean of a course
+  double time = 0.0;       // s, mean of a course walked until every target is reached
+};
+
+/// The seeds of the courses follow from `seed`; threads 0: all processors.
+CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads);
 
 }  // namespace nonet::lab

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nonet/lab/target_course.h"
 #include "nonet/lab/trial_robot.h"
 
 namespace nonet::lab {
@@ -19,10 +20,11 @@ struct WalkReportSettings {
   TrialSetup setup;
   int trials = 10;  // per measure
   std::uint64_t seed = 1;
+  int courses = 0;                      // obstacle courses of a minute to walk (target_course.h), in process
   int threads = 0;                      // 0: all processors; the result does not depend on it
   double positionNoise = 0.025;         // m, standard deviation
-  std::optional<ServerAddress> server;  // measure there, one walk after the other, instead of in process
   double headingNoise = 0.02;           // rad
+  std::optional<ServerAddress> server;  // measure there, one walk after the other, instead of in process
 };
 
 /// Mean and half width of the 95 % confidence interval of the mean.
@@ -41,6 +43,7 @@ struct WalkReport {
   Estimate odometryError;  // share of the distance walked forward
   int falls = 0;
   int trials = 0;  // walks in all
+  CourseSummary course;
 };
 
 WalkReport measureWalk(const WalkReportSettings& settings);
