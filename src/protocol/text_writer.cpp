@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "nonet/protocol/rounding.h"
 
@@ -65,7 +66,29 @@ void appendInteger(std::string& text, int value) {
   text.append(buffer.data(), end);
 }
 
+namespace {
+
+/// Without the way through text, for usual sizes. The scaled number is wrong by 1e-10 at most, so unless it
+/// is next to a tie it is rounded to the right side, and the quotient of two exact numbers is rounded as
+/// strtod rounds.
+std::optional<double> quicklyToSixDigits(double value) {
+  constexpr std::array kBounds{1e5, 1e4, 1e3, 1e2, 1e1, 1e0, 1e-1, 1e-2, 1e-3};
+  constexpr std::array kPowers{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+  const double size = std::abs(value);
+  if (!(size >= kBounds.back() && size < 1e6)) return std::nullopt;
+  std::size_t i = 0;
+  while (size < kBounds[i]) ++i;
+  const double scaled = size * kPowers[i];
+  const double nearest = std::nearbyint(scaled);
+  constexpr double kNextToTie = 1e-6;
+  if (std::abs(std::abs(scaled - nearest) - 0.5) < kNextToTie) return std::nullopt;
+  return std::copysign(nearest / kPowers[i], value);
+}
+
+}  // namespace
+
 double roundToSixDigits(double value) {
+  if (const auto rounded = quicklyToSixDigits(value)) return *rounded;
   if (std::isnan(value)) {
     return std::copysign(std::numeric_limits<double>::quiet_NaN(), value);
   }

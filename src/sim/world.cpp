@@ -70,9 +70,10 @@ bool World::isFrozen(RobotHandle robot, model::JointId joint) const {
   return node != nullptr && node->frozen;
 }
 float World::jointAngleDegrees(RobotHandle robot, model::JointId joint) const {
-  const JointNode* node = implementation_->robot(robot).joint(joint);
-  if (node == nullptr) return 0.0F;
-  return static_cast<float>(dJointGetHingeAngle(node->joint) * (180.0 / M_PI));
+  const RobotNode& node = implementation_->robot(robot);
+  const int i = node.jointIndex[index(joint)];
+  if (i < 0) return 0.0F;
+  return static_cast<float>(node.cell.mechanism.angle(static_cast<std::size_t>(i)) * (180.0 / M_PI));
 }
 float World::jointAngle(RobotHandle robot, model::JointId joint) const {
   return scene::toRadians(jointAngleDegrees(robot, joint));

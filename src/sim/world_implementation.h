@@ -80,6 +80,7 @@ inline void setCountdown(BodyNode& node, int steps) {
 /// threads, geoms by one, in an order that does not depend on them.)
 inline void placeGeom(BodyNode& node) {
   node.moved = true;
+  node.collider.cell->mechanism.turned();
   if (node.geom == nullptr) return;
   const dReal* position = dBodyGetPosition(node.body);
   dGeomSetRotation(node.geom, dBodyGetRotation(node.body));

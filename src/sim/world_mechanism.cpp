@@ -210,13 +210,22 @@ Mechanism buildMechanism(dWorldID world, const RobotPlan& plan) {
   return mechanism;
 }
 
+double Mechanism::angle(std::size_t joint) const {
+  if (knownAngles.empty()) knownAngles.resize(joints.size());
+  KnownAngle& known = knownAngles[joint];
+  if (known.turns != turns) known = {dJointGetHingeAngle(joints[joint]), turns};
+  return known.angle;
+}
+
 Mechanism buildBall(dWorldID world, float radius, float mass) {
   const dBodyID body = dBodyCreate(world);
   placeBody(body, {Eigen::Matrix3f::Identity(), {0.0F, 0.0F, radius}});
   dMass sphere;
   dMassSetSphereTotal(&sphere, mass, radius);
   dBodySetMass(body, &sphere);
-  return {{body}, {}};
+  Mechanism ball;
+  ball.bodies = {body};
+  return ball;
 }
 
 void copyBody(dBodyID from, dBodyID to) {

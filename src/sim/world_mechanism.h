@@ -4,6 +4,7 @@
 // in one world for all, so the results are the same bits.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,6 +44,18 @@ const RobotPlan& robotPlan(int type);
 struct Mechanism {
   std::vector<dBodyID> bodies;   // in creation order
   std::vector<dJointID> joints;  // likewise
+
+  /// Angle of a joint (its index), rad. Computed once between two moves: sensors, motors and stepper ask.
+  double angle(std::size_t joint) const;
+  /// To be called when a body has been turned.
+  void turned() { ++turns; }
+
+  struct KnownAngle {
+    double angle = 0.0;
+    std::uint64_t turns = 0;
+  };
+  mutable std::vector<KnownAngle> knownAngles;
+  std::uint64_t turns = 1;
 };
 
 /// An ODE world with the server's parameters (server facts 3.1), and the group of its contact joints. It may

@@ -42,21 +42,93 @@ Matrix6 shifted(const Matrix6& mass, const Matrix3d& offset) {
   return result;
 }
 
-Vector6 atPoint(const Vector6& velocity, const Vector3d& arm) {
+/// Solves X + A X = B for 6 right sides at a time, A symmetric and not negative: with the factors of 1 + A.
+/// (Eigen's solver for several right sides is made for large matrices. The roundings are the same as there:
+/// panels of four rows.)
+class SmallCholesky {
+ public:
+  explicit SmallCholesky(const Matrix6& matrix) {
+    for (int k = 0; k < 6; ++k) {
+      double square = 0.0;
+      for (int i = 0; i < k; ++i) square += lower_[k][i] * lower_[k][i];
+      const double diagonal = std::sqrt(matrix(k, k) - square);
+      for (int r = k + 1; r < 6; ++r) {
+        double sum = 0.0;
+        for (int i = 0; i < k; ++i) sum += lower_[r][i] * lower_[k][i];
+        lower_[r][k] = (matrix(r, k) - sum) / diagonal;
+      }
+      inverse_[k] = 1.0 / diagonal;
+    }
+  }
+  explicit SmallCholesky(const Eigen::LLT<Matrix6>& factors) {
+    for (int r = 0; r < 6; ++r) {
+      for (int k = 0; k < r; ++k) lower_[r][k] = factors.matrixLLT()(r, k);
+      inverse_[r] = 1.0 / factors.matrixLLT()(r, r);
+    }
+  }
+
+  Matrix6 solve(const Matrix6& right) const {
+    Eigen::Matrix<double, 6, 6, Eigen::RowMajor> x = right;
+    forward<0, 4>(x);
+    for (int r = 4; r < 6; ++r) subtract(x, r, 0, [this, r](int k) { return lower_[r][k]; });
+    forward<4, 6>(x);
+    backward<2, 6>(x);
+    for (int r = 0; r < 2; ++r) subtract(x, r, 2, [this, r](int k) { return lower_[k][r]; });
+    backward<0, 2>(x);
+    return x;
+  }
+
+ private:
+  using Rows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+  /// Row r minus the sum over four rows from `first` on.
+  template <typename Factor>
+  static void subtract(Rows& x, int r, int first, const Factor& factor) {
+    for (int j = 0; j < 6; ++j) {
+      double sum = 0.0;
+      for (int k = first; k < first + 4; ++k) sum += factor(k) * x(k, j);
+      x(r, j) -= sum;
+    }
+  }
+  template <int Begin, int End>
+  void forward(Rows& x) const {
+    for (int i = Begin; i < End; ++i) {
+      for (int j = 0; j < 6; ++j) x(i, j) *= inverse_[i];
+      for (int r = i + 1; r < End; ++r) {
+        for (int j = 0; j < 6; ++j) x(r, j) -= x(i, j) * lower_[r][i];
+      }
+    }
+  }
+  template <int Begin, int End>
+  void backward(Rows& x) const {
+    for (int i = End - 1; i >= Begin; --i) {
+      for (int j = 0; j < 6; ++j) {
+        double sum = 0.0;
+        for (int k = i + 1; k < End; ++k) sum += lower_[k][i] * x(k, j);
+        x(i, j) = (x(i, j) - sum) * inverse_[i];
+      }
+    }
+  }
+
+  double lower_[6][6] = {};
+  double inverse_[6] = {};
+};
+
+[[gnu::always_inline]] inline Vector6 atPoint(const Vector6& velocity, const Vector3d& arm) {
   Vector6 result = velocity;
   result.head<3>() += velocity.tail<3>().cross(arm);
   return result;
 }
 
 /// An impulse at the end of an arm, as one on the centre.
-Vector6 atCentre(const Vector6& impulse, const Vector3d& arm) {
+[[gnu::always_inline]] inline Vector6 atCentre(const Vector6& impulse, const Vector3d& arm) {
   Vector6 result = impulse;
   result.tail<3>() += arm.cross(impulse.head<3>());
   return result;
 }
 
 /// An impulse on the centre, as one at the end of an arm.
-Vector6 fromCentre(const Vector6& impulse, const Vector3d& arm) {
+[[gnu::always_inline]] inline Vector6 fromCentre(const Vector6& impulse, const Vector3d& arm) {
   Vector6 result = impulse;
   result.tail<3>() -= arm.cross(impulse.head<3>());
   return result;
@@ -159,7 +231,7 @@ void StepTree::setAxisRow(std::size_t i, const Mechanism& mechanism, double seco
   const Link& link = links_[i];
   Joint& joint = joints_[i];
   const dJointID hinge = mechanism.joints[i - 1];
-  const double angle = dJointGetHingeAngle(hinge);
+  const double angle = mechanism.angle(i - 1);
   const double motor = dJointGetHingeParam(hinge, dParamVel);
   joint.row = AxisRow::Constraint;
   joint.axisCompliance = kMotorCfm / seconds;
@@ -219,7 +291,7 @@ void StepTree::factor() {
     const Matrix6 massRoot = mass * root;
     Matrix6 middle = root * massRoot;
     middle.diagonal().array() += 1.0;
-    joint.transmission = -massRoot * middle.llt().solve(root);
+    joint.transmission = -massRoot * SmallCholesky(middle).solve(root);
     joint.transmission.diagonal().array() += 1.0;
     joint.feltMass = joint.transmission * mass;
     loaded_[static_cast<std::size_t>(links_[i].parent)] += shifted(joint.feltMass, -cross(joint.parentArm));
@@ -247,6 +319,33 @@ Vector6 StepTree::passDown(const Joint& joint, const Vector6& wanted, double giv
   }
   impulse.tail<3>() += given * joint.axis;
   return atPoint(velocity, -joint.childArm);
+}
+
+/// The same for six loads (null: none) and nothing else.
+Matrix6 StepTree::passDown(const Joint& joint, const Matrix6* loads, const Matrix6& parentVelocities) const {
+  Matrix6 asked;
+  for (int k = 0; k < 6; ++k) asked.col(k) = atPoint(parentVelocities.col(k), joint.parentArm);
+  Matrix6 impulses = joint.feltMass * asked;
+  Matrix6 momenta = Matrix6::Zero();
+  if (loads != nullptr) {
+    Matrix6 free;
+    for (int k = 0; k < 6; ++k) {
+      momenta.col(k) = fromCentre(loads->col(k), joint.childArm);
+      free.col(k) = freeMomentum(joint, momenta.col(k));
+    }
+    impulses -= joint.transmission * free;
+  }
+  Matrix6 velocities;
+  for (int k = 0; k < 6; ++k) {
+    Vector6 velocity = asked.col(k) - compliance(joint, impulses.col(k));
+    if (joint.row != AxisRow::Constraint) {
+      const double turn =
+          (joint.axis.dot(momenta.col(k).tail<3>()) - joint.axisMass.dot(velocity)) / joint.axisInertia;
+      velocity.tail<3>() += turn * joint.axis;
+    }
+    velocities.col(k) = atPoint(velocity, -joint.childArm);
+  }
+  return velocities;
 }
 
 void StepTree::solve(std::span<const Vector6> impulses) {
@@ -283,11 +382,12 @@ void StepTree::respond(std::size_t pushed, std::span<const std::size_t> observed
     loads[depth++] = load;
     if (i == 0) break;
     const Joint& joint = joints_[i];
-    Matrix6 up;
+    Matrix6 momenta;
     for (int k = 0; k < 6; ++k) {
-      const Vector6 momentum = freeMomentum(joint, fromCentre(load.col(k), joint.childArm));
-      up.col(k) = atCentre(joint.transmission * momentum, joint.parentArm);
+      momenta.col(k) = freeMomentum(joint, fromCentre(load.col(k), joint.childArm));
     }
+    Matrix6 up = joint.transmission * momenta;
+    for (int k = 0; k < 6; ++k) up.col(k) = atCentre(up.col(k), joint.parentArm);
     load = up;
   }
   const auto loadOf = [&](std::size_t body) -> const Matrix6* {
@@ -296,7 +396,7 @@ void StepTree::respond(std::size_t pushed, std::span<const std::size_t> observed
     }
     return nullptr;
   };
-  const Matrix6 rootVelocity = root_.solve(loads[depth - 1]);
+  const Matrix6 rootVelocity = SmallCholesky(root_).solve(loads[depth - 1]);
   for (std::size_t o = 0; o < observed.size(); ++o) {
     std::array<std::size_t, kMaxDepth> down{};
     std::size_t steps = 0;
@@ -306,11 +406,7 @@ void StepTree::respond(std::size_t pushed, std::span<const std::size_t> observed
     while (steps > 0) {
       const std::size_t i = down[--steps];
       const Matrix6* own = loadOf(i);
-      Vector6 impulse;
-      for (int k = 0; k < 6; ++k) {
-        const Vector6 ownLoad = own == nullptr ? Vector6(Vector6::Zero()) : Vector6(own->col(k));
-        velocity.col(k) = passDown(joints_[i], Vector6::Zero(), 0.0, ownLoad, velocity.col(k), impulse);
-      }
+      velocity = passDown(joints_[i], own, velocity);
     }
     response[o] = velocity;
   }

@@ -86,6 +86,7 @@ class StepTree {
   /// Child velocity (at its centre) from its parent's, for a given load; also the joint's impulse.
   Vector6 passDown(const Joint& joint, const Vector6& wanted, double given, const Vector6& load,
                    const Vector6& parentVelocity, Vector6& impulse) const;
+  Matrix6 passDown(const Joint& joint, const Matrix6* loads, const Matrix6& parentVelocities) const;
 
   std::vector<Link> links_;
   std::vector<Joint> joints_;     // [i] between body i and its parent; [0] is not used

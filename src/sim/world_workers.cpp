@@ -2,11 +2,16 @@
 
 #include <ode/ode.h>
 
+#include "sim/ode_kernels.h"
+
 namespace nonet::sim {
 
 void prepareOdeThread() {
   static std::once_flag initialised;
-  std::call_once(initialised, [] { dInitODE2(0); });
+  std::call_once(initialised, [] {
+    ode_kernels::link();
+    dInitODE2(0);
+  });
   thread_local const bool prepared = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
   static_cast<void>(prepared);
 }

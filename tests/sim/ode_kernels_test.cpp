@@ -1,0 +1,108 @@
+// The oracle is ODE itself: its own kernels, which the program's hide, are looked up behind them.
+#include "sim/ode_kernels.h"
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include "nonet/math/random.h"
+#include "nonet/sim/world_episode.h"
+
+namespace {
+
+using nonet::Random;
+namespace kernels = nonet::sim::ode_kernels;
+
+using Factor = void (*)(double*, double*, unsigned, unsigned);
+using Solve = void (*)(const double*, double*, unsigned, unsigned);
+
+/// ODE's function of this (mangled) name; null if this ODE has none.
+template <typename Function>
+Function odes(const char* name) {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+std::vector<std::uint64_t> bits(const std::vector<double>& numbers) {
+  std::vector<std::uint64_t> result;
+  result.reserve(numbers.size());
+  for (const double number : numbers) result.push_back(std::bit_cast<std::uint64_t>(number));
+  return result;
+}
+
+/// Some are zero, as in a robot's equations, with either sign.
+std::vector<double> numbers(std::size_t count, double zeros, Random& random) {
+  std::vector<double> result(count);
+  for (double& number : result) {
+    number = random.uniform(-1.0, 1.0);
+    if (random.uniform() < zeros) number = std::copysign(0.0, number);
+  }
+  return result;
+}
+
+constexpr unsigned kLargest = 150;
+
+unsigned rowLength(unsigned n) {
+  return n + 3 - (n + 3) % 4 + 4;
+}
+
+void compareSolvers(const char* odesName, Solve ours) {
+  const auto reference = odes<Solve>(odesName);
+  if (reference == nullptr) GTEST_SKIP() << "this ODE has no " << odesName;
+  Random random(5);
+  for (unsigned n = 1; n <= kLargest; ++n) {
+    for (const double zeros : {0.0, 0.4, 0.9}) {
+      const std::vector<double> l = numbers(std::size_t{n} * rowLength(n), zeros, random);
+      std::vector<double> expected = numbers(n, zeros, random);
+      std::vector<double> b = expected;
+      reference(l.data(), expected.data(), n, rowLength(n));
+      ours(l.data(), b.data(), n, rowLength(n));
+      ASSERT_EQ(bits(b), bits(expected)) << n << " unknowns";
+    }
+  }
+}
+
+TEST(OdeKernels, ForwardSolutionIsOdesToTheBit) {
+  compareSolvers("_Z15solveL1StraightILj1EEvPKdPdjj", &kernels::solveL1);
+}
+
+TEST(OdeKernels, BackwardSolutionIsOdesToTheBit) {
+  compareSolvers("_Z17solveL1TransposedILj1EEvPKdPdjj", &kernels::solveL1Transposed);
+}
+
+TEST(OdeKernels, FactorsAreOdesToTheBit) {
+  const char* name = "_Z18factorMatrixAsLDLTILj1EEvPdS0_jj";
+  const auto reference = odes<Factor>(name);
+  if (reference == nullptr) GTEST_SKIP() << "this ODE has no " << name;
+  Random random(6);
+  for (unsigned n = 1; n <= kLargest; ++n) {
+    for (const double zeros : {0.0, 0.4, 0.9}) {
+      std::vector<double> a = numbers(std::size_t{n} * rowLength(n), zeros, random);
+      for (unsigned i = 0; i < n; ++i) a[i * (rowLength(n) + 1)] = n;
+      std::vector<double> expected = a;
+      std::vector<double> d(n);
+      std::vector<double> expectedD(n);
+      reference(expected.data(), expectedD.data(), n, rowLength(n));
+      kernels::factorLdlt(a.data(), d.data(), n, rowLength(n));
+      ASSERT_EQ(bits(d), bits(expectedD)) << n << " rows";
+      for (unsigned i = 0; i < n; ++i) {
+        for (unsigned k = 0; k < i; ++k) {
+          const std::size_t at = i * std::size_t{rowLength(n)} + k;
+          ASSERT_EQ(std::bit_cast<std::uint64_t>(a[at]), std::bit_cast<std::uint64_t>(expected[at]))
+              << n << " rows, row " << i << " column " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(OdeKernels, OdeCallsThem) {
+  if (odes<Factor>("_Z18factorMatrixAsLDLTILj1EEvPdS0_jj") == nullptr) GTEST_SKIP() << "not this ODE";
+  const unsigned long before = kernels::callsByOde();
+  nonet::sim::runFixedEpisode({}, 1, 10, false);
+  EXPECT_GT(kernels::callsByOde(), before);
+}
+
+}  // namespace
