@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/lab/match_localization.h"
 #include "nonet/lab/work_crew.h"
+#include "nonet/math/angle.h"
 
 namespace nonet::lab {
 namespace {
@@ -104,12 +106,42 @@ TEST(Match, SameSeedSameMatchOnAnyNumberOfThreads) {
 
 TEST(Match, CanBeStopped) {
   int cycles = 0;
-  const MatchResult result =
-      playInProcess(shortMatch(1), NONET_SOURCE_DIR, 1,
-                    [&](const sim::Simulation&, const MatchWatcher&) { return ++cycles < 10; });
+  MatchObservers observers;
+  observers.afterCycle = [&](const sim::Simulation&, const MatchWatcher&) { return ++cycles < 10; };
+  const MatchResult result = playInProcess(shortMatch(1), NONET_SOURCE_DIR, 1, observers);
   EXPECT_EQ(result.cycles, 10);
   EXPECT_FALSE(result.finished);
   EXPECT_FALSE(result.flawless());
+}
+
+TEST(Match, LocalizationOfAllPlayersIsMeasuredAgainstTheSimulation) {
+  MatchLocalization localization;
+  long visions = 0;
+  MatchObservers observers;
+  observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher&) {
+    localization.afterCycle(simulation);
+    return true;
+  };
+  observers.afterThought = [&](const Thought& thought) {
+    localization.afterThought(thought);
+    visions += thought.percept.vision ? 1 : 0;
+  };
+  const MatchResult watched = playInProcess(shortMatch(5), NONET_SOURCE_DIR, 1, observers);
+  EXPECT_EQ(watched.signature, playInProcess(shortMatch(5), NONET_SOURCE_DIR, 1).signature)
+      << "watching changes nothing";
+
+  // None left out but what is seen before the first cycle has ended.
+  const LocalizationReport::Summary all = localization.all().summary();
+  EXPECT_GE(static_cast<long>(all.frames), visions - 4);
+  EXPECT_GT(all.frames, 100U);
+  EXPECT_LT(all.position.median, 0.02);
+  EXPECT_LT(all.heading.median, toRadians(0.15));
+  const nlohmann::ordered_json json = localization.toJson();
+  EXPECT_EQ(json["players"].size(), 4U);
+  std::size_t sum = 0;
+  for (const char* activity : {"standing", "walking", "fallen"})
+    sum += json[activity]["frames"].get<std::size_t>();
+  EXPECT_EQ(sum, all.frames);
 }
 
 // A robot that throws its legs forward falls, once, and is counted once however long it lies.
