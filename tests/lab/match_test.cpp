@@ -144,6 +144,45 @@ TEST(Match, LocalizationOfAllPlayersIsMeasuredAgainstTheSimulation) {
   EXPECT_EQ(sum, all.frames);
 }
 
+TEST(Match, EverybodyKnowsTheOwnSideAtOnceAfterHalfTime) {
+  // Vision comes in every third message, so half time is moved through all three places between two of them.
+  for (int phase = 0; phase < 3; ++phase) {
+    MatchChoice choice = shortMatch(3);
+    choice.minutes = (3.0 + 2.0 * phase * kCycleTime) / 60.0;
+    choice.settings.changeSidesInSecondHalf = true;
+    // Torsos in the frames of their teams: after the last cycle, and one cycle before, which is what a
+    // message shows when it is read.
+    std::map<sim::AgentHandle, Vector2> now;
+    std::map<sim::AgentHandle, Vector2> shown;
+    double halfTime = 0.0;
+    MatchObservers observers;
+    observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher&) {
+      shown = now;
+      const double time = static_cast<double>(simulation.match().serverTime);
+      if (simulation.match().half == 2 && halfTime == 0.0) halfTime = time;
+      for (const sim::AgentInfo& agent : simulation.agents()) {
+        const auto p_W = simulation.world().bodyPose(agent.robot, model::BodyId::Torso).position;
+        const double sign = agent.side == protocol::TeamSide::Right ? -1.0 : 1.0;
+        now[agent.handle] = sign * p_W.head<2>().cast<double>();
+      }
+      return true;
+    };
+    int checked = 0;
+    observers.afterThought = [&](const Thought& thought) {
+      // Two vision messages, the first of which may still show everybody in the old place.
+      if (halfTime == 0.0 || thought.percept.time < halfTime + 0.1) return;
+      const world::WorldState& world = thought.agent.world();
+      ++checked;
+      EXPECT_TRUE(world.game.sidesSwapped);
+      EXPECT_LT((world.self.X_FR.translation - shown.at(thought.handle)).norm(), 0.2)
+          << "phase " << phase << ", agent " << thought.handle << ", " << thought.percept.time - halfTime
+          << " s after half time";
+    };
+    playInProcess(choice, NONET_SOURCE_DIR, 1, observers);
+    EXPECT_GT(checked, 300);
+  }
+}
+
 // A robot that throws its legs forward falls, once, and is counted once however long it lies.
 TEST(MatchWatcher, CountsAFallOnce) {
   MatchChoice choice = shortMatch(1);
