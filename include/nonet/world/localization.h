@@ -87,7 +87,8 @@ class Localization {
   double yawOffset_ = 0.0;  // heading of G in W, rad
   Vector3 lastP_GR_ = Vector3::Zero();
   bool hasLast_ = false;
-  Pose2 step_;  // odometry since the last vision frame
+  double pace_ = 0.0;  // m/s, horizontal speed of the last half second
+  Pose2 step_;         // odometry since the last vision frame
   int misses_ = 0;
   double moveSigma_ = 0.2;         // m, size of the recent moves by others
   double moveHeadingSigma_ = 0.3;  // rad
