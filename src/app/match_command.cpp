@@ -6,6 +6,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/tcp_match.h"
+#include "nonet/lab/match_localization.h"
 
 namespace nonet::app {
 namespace {
@@ -15,21 +16,28 @@ struct MatchArguments {
   int players = 9;
   int threads = 1;
   bool inProcess = false;
+  bool localization = false;
   std::string json = "logs/match.json";
   std::vector<std::string> settingFiles;
   std::vector<std::string> assignments;
 };
 
-lab::MatchResult playHere(const MatchArguments& arguments, Console& console) {
+lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
+                          lab::MatchLocalization& localization) {
   const lab::MatchChoice& match = arguments.options.match;
   console.say(fmt::format("{} against {}, {} a side, seed {}, in one process with {} threads",
                           match.left.name, match.right.name, match.left.players, match.seed,
                           arguments.threads));
-  const auto show = [&console](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
+  lab::MatchObservers observers;
+  observers.afterCycle = [&](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
     if (console.due()) console.progress(watcher.progress(simulation));
+    if (arguments.localization) localization.afterCycle(simulation);
     return true;
   };
-  lab::MatchResult result = lab::playInProcess(match, dataFolder(), arguments.threads, show);
+  if (arguments.localization) {
+    observers.afterThought = [&](const lab::Thought& thought) { localization.afterThought(thought); };
+  }
+  lab::MatchResult result = lab::playInProcess(match, dataFolder(), arguments.threads, observers);
   console.end();
   return result;
 }
@@ -43,13 +51,17 @@ int runMatch(MatchArguments& arguments) {
     throw std::runtime_error("--left and --right must be different names");
 
   Console console;
-  const lab::MatchResult result =
-      arguments.inProcess ? playHere(arguments, console) : playOverTcp(arguments.options, console);
+  lab::MatchLocalization localization;
+  const lab::MatchResult result = arguments.inProcess ? playHere(arguments, console, localization)
+                                                      : playOverTcp(arguments.options, console);
   fmt::print("{}", result.toText());
+  if (arguments.localization) fmt::print("{}", localization.toText());
   const std::filesystem::path folder = std::filesystem::path(arguments.json).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);
   std::ofstream file(arguments.json);
-  file << result.toJson().dump(2) << "\n";
+  nlohmann::ordered_json json = result.toJson();
+  if (arguments.localization) json["localization"] = localization.toJson();
+  file << json.dump(2) << "\n";
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
   fmt::print("result in {}\n", arguments.json);
   return result.finished ? 0 : 1;
@@ -91,8 +103,14 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--settings", arguments->settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
   command->add_option("--set", arguments->assignments, "Settings of the server, Name=Value");
-  command->add_flag("--in-process", arguments->inProcess,
-                    "Agents and world in this process, without text and sockets");
+  CLI::Option* inProcess = command->add_flag("--in-process", arguments->inProcess,
+                                             "Agents and world in this process, without text and sockets");
+  command
+      ->add_flag(
+          "--localization", arguments->localization,
+          "With --in-process: what all players believe of their place, the ball and each other against "
+          "the simulation's truth")
+      ->needs(inProcess);
   command->add_option("--threads", arguments->threads, "With --in-process: threads for agents and physics")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));

@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/lab/localization_report.h"
 #include "nonet/lab/replay.h"
 
 namespace nonet::app {
@@ -13,24 +17,75 @@ struct ReplayArguments {
   std::vector<std::string> files;
   lab::ReplayOptions options;
   bool json = false;
+  bool localization = false;
+  std::string maps = "logs/maps";
 };
+
+/// "logs/3.zst" -> "FOLDER/3.zst.svg".
+std::string writeMap(const lab::LocalizationReport& report, const std::string& log,
+                     const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path name = std::filesystem::path(log).filename();
+  const std::string path = (std::filesystem::path(folder) / name).string() + ".svg";
+  std::ofstream file(path);
+  file << report.toSvg();
+  if (!file.flush()) throw std::runtime_error("cannot write " + path);
+  return path;
+}
+
+void printLocalization(const lab::LocalizationReport& report, const std::string& file,
+                       const ReplayArguments& arguments) {
+  const bool known = report.summary().frames > 0;
+  const std::string map = known ? writeMap(report, file, arguments.maps) : "";
+  if (arguments.json) {
+    nlohmann::ordered_json json = {{"file", file}};
+    json.update(report.toJson());
+    json["map"] = map;
+    fmt::print("{}\n", json.dump());
+    return;
+  }
+  fmt::print("{}: {}", file, report.toText());
+  if (known) fmt::print("  map in {}\n", map);
+}
+
+/// False if the replay shows a difference or an unknown token.
+bool replayOne(const std::string& file, ReplayArguments& arguments, lab::LocalizationReport& all) {
+  lab::LocalizationReport localization;
+  if (arguments.localization) {
+    arguments.options.observer = [&](const lab::Session& session) {
+      localization.add(session.percept(), session.agent().world());
+      all.add(session.percept(), session.agent().world());
+    };
+    arguments.options.truthObserver = [&](std::string_view truth) {
+      localization.sharpen(truth);
+      all.sharpen(truth);
+    };
+  }
+  const lab::ReplayReport report = lab::replay(file, arguments.options);
+  if (arguments.localization) {
+    printLocalization(localization, file, arguments);
+  } else if (arguments.json) {
+    fmt::print("{}\n", report.toJson().dump());
+  } else {
+    fmt::print("{}", report.toText());
+  }
+  return report.clean();
+}
 
 int runReplay(ReplayArguments& arguments) {
   arguments.options.dataFolder = dataFolder();
+  lab::LocalizationReport all;
   int exitCode = 0;
   for (const std::string& file : arguments.files) {
     try {
-      const lab::ReplayReport report = lab::replay(file, arguments.options);
-      if (arguments.json) {
-        fmt::print("{}\n", report.toJson().dump());
-      } else {
-        fmt::print("{}", report.toText());
-      }
-      if (!report.clean()) exitCode = 1;
+      if (!replayOne(file, arguments, all)) exitCode = std::max(exitCode, 1);
     } catch (const std::exception& error) {
       fmt::print(stderr, "nonet replay: {}\n", error.what());
       exitCode = 2;
     }
+  }
+  if (arguments.localization && !arguments.json && arguments.files.size() > 1) {
+    fmt::print("all {} files: {}", arguments.files.size(), all.toText());
   }
   return exitCode;
 }
@@ -43,6 +98,11 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->add_option("files", arguments->files, "Logs: our own, or foreign ones, plain, gzip or zstd")
       ->required();
   command->add_flag("--json", arguments->json, "One JSON object per file and line");
+  command->add_flag("--localization", arguments->localization,
+                    "Errors of the believed pose against mypos and myorien in the log, every vision message "
+                    "counted, and a map of both tracks");
+  command->add_option("--maps", arguments->maps, "With --localization: folder for the maps (SVG)")
+      ->capture_default_str();
   lab::ReplayOptions& options = arguments->options;
   command->add_option("--unum", options.unum, "Foreign logs: the robot's number, if the log does not tell");
   command->add_option("--team", options.team, "Foreign logs: its team");

@@ -133,9 +133,8 @@ std::string MatchWatcher::progress(const sim::Simulation& simulation) const {
                      result_.falls(true));
 }
 
-MatchResult playInProcess(
-    const MatchChoice& choice, const std::string& dataFolder, int threads,
-    const std::function<bool(const sim::Simulation&, const MatchWatcher&)>& afterCycle) {
+MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFolder, int threads,
+                          const MatchObservers& observers) {
   sim::Settings settings = matchSettings(choice);
   settings.threads = threads;
   sim::Simulation simulation(settings, choice.seed);
@@ -161,12 +160,17 @@ MatchResult playInProcess(
   for (bool more = true; more;) {
     crew.run(static_cast<int>(players.size()), think);
     for (const InProcessPlayer& player : players) {
-      if (player.answered) simulation.act(player.handle, player.answer);
+      if (!player.answered) continue;
+      simulation.act(player.handle, player.answer);
+      if (observers.afterThought) {
+        observers.afterThought(
+            {player.handle, *simulation.sense(player.handle), *player.agent, player.answer});
+      }
     }
     simulation.step();
     watcher.update(simulation);
     if (watcher.result().finished && ++afterEnd > kLinger) more = false;
-    if (afterCycle && !afterCycle(simulation, watcher)) more = false;
+    if (observers.afterCycle && !observers.afterCycle(simulation, watcher)) more = false;
   }
   MatchResult result = watcher.finish(simulation);
   for (std::size_t i = 0; i < players.size(); ++i) result.players[i].messages = players[i].messages;

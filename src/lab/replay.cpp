@@ -113,6 +113,8 @@ class Replay {
         received(line.text);
       } else if (line.kind == LogLine::Kind::Sent && report_.own) {
         compare(line);
+      } else if (line.kind == LogLine::Kind::Truth && options_.truthObserver) {
+        options_.truthObserver(line.text);
       }
     }
     finish();

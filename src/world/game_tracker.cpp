@@ -1,6 +1,7 @@
 #include "nonet/world/game_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace nonet::world {
@@ -11,7 +12,8 @@ using protocol::PlayMode;
 
 constexpr double kDropBallTime = 15.0;  // s, RuleDropBallTime (server facts 4.1)
 constexpr double kPassTime = 4.0;       // s, PassModeDuration
-constexpr double kSideMargin = 0.2;     // m beyond the halfway line that prove a change of sides
+constexpr double kSideMargin = 0.2;     // m beyond the halfway line that prove on which side one plays
+constexpr double kCircleMargin = 2.3;   // m, the same at the kick-off: the centre circle is open to the taker
 
 /// The phase for a mode of the left team, seen by that team, and its counterpart.
 Phase phaseOf(PlayMode mode, bool fromRight) {
@@ -62,10 +64,6 @@ Phase phaseOf(PlayMode mode, bool fromRight) {
   }
 }
 
-bool isGoal(PlayMode mode) {
-  return mode == PlayMode::GoalLeft || mode == PlayMode::GoalRight;
-}
-
 }  // namespace
 
 GameTracker::GameTracker(const protocol::TeamName& team) : team_(team) {}
@@ -77,24 +75,25 @@ void GameTracker::update(const protocol::Percept& percept, GameState& state) {
   if (game.side) {
     state.side = *game.side;
     state.sidesSwapped = false;
+    sideKnown_ = true;
   }
   state.time = game.time;
 
-  const PlayMode before = state.playMode;
   if (game.playMode == PlayMode::BeforeKickOff) {
-    if (played_ && !isGoal(before)) {  // half time (never straight after a goal)
+    if (played_) {  // half time; also straight after a goal, since the clock runs in that mode
       state.half = 2;
-      sideChecked_ = false;
+      sideKnown_ = false;
+      halfSince_ = percept.time;
     }
     played_ = false;
   } else if (game.playMode != PlayMode::Unknown && game.playMode != PlayMode::GameOver) {
     played_ = true;
   }
   // The score goes with the team: if it changes places at half time, the sides did.
-  if (!sideChecked_ && game.scoreLeft && game.scoreRight && *game.scoreLeft != *game.scoreRight &&
+  if (!sideKnown_ && game.scoreLeft && game.scoreRight && *game.scoreLeft != *game.scoreRight &&
       *game.scoreLeft == scoreRight_ && *game.scoreRight == scoreLeft_) {
     state.sidesSwapped = !state.sidesSwapped;
-    sideChecked_ = true;
+    sideKnown_ = true;
   }
   scoreLeft_ = game.scoreLeft.value_or(scoreLeft_);
   scoreRight_ = game.scoreRight.value_or(scoreRight_);
@@ -122,18 +121,23 @@ void GameTracker::setPhase(Phase phase, double time, GameState& state) const {
   state.opponentMayTouch = !own && !stopped;
 }
 
-bool GameTracker::noticePlace(double x_W, GameState& state) {
-  if (sideChecked_ || state.playMode != PlayMode::BeforeKickOff) return false;
-  const double ahead = playsFromRight(state) ? -x_W : x_W;
-  if (ahead < kSideMargin) {
-    // In the own half: the sides are as believed, unless the robot hugs the halfway line.
-    if (ahead < -kSideMargin) sideChecked_ = true;
-    return false;
+void GameTracker::noticePlace(double x_W, double time, GameState& state) {
+  if (sideKnown_ || time <= halfSince_) return;
+  double margin = 0.0;
+  if (state.playMode == PlayMode::BeforeKickOff) {
+    margin = kSideMargin;
+  } else if (state.playMode == PlayMode::KickOffLeft || state.playMode == PlayMode::KickOffRight) {
+    margin = kCircleMargin;
+  } else {
+    return;
   }
+  const double ahead = playsFromRight(state) ? -x_W : x_W;
+  if (std::abs(ahead) < margin) return;
+  sideKnown_ = true;
+  if (ahead < 0.0) return;
   state.sidesSwapped = !state.sidesSwapped;
   std::swap(state.ownScore, state.opponentScore);
-  sideChecked_ = true;
-  return true;
+  setPhase(phaseOf(state.playMode, playsFromRight(state)), time, state);
 }
 
 }  // namespace nonet::world

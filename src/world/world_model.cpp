@@ -1,6 +1,8 @@
 #include "nonet/world/world_model.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "nonet/math/angle.h"
 #include "nonet/world/ball_tracker.h"
@@ -97,8 +99,10 @@ void WorldModel::Stages::followBeam() {
   const bool allowed =
       phase == Phase::BeforeKickOff || phase == Phase::OwnGoal || phase == Phase::OpponentGoal;
   if (!due || !allowed) return;
-  const Pose2 X_WR = playsFromRight(state.game) ? Pose2(0.0, 0.0, kPi) * *due : *due;
-  localization.expectPlace(X_WR, state.time);
+  const Pose2 turned = Pose2(0.0, 0.0, kPi) * *due;
+  std::array<Pose2, 2> places{*due, turned};
+  if (playsFromRight(state.game)) std::swap(places[0], places[1]);
+  localization.expectPlaces({places.data(), game.sideKnown() ? 1U : 2U}, state.time);
 }
 
 void WorldModel::Stages::listen(const protocol::Percept& percept) {
@@ -154,6 +158,7 @@ const WorldState& WorldModel::update(const protocol::Percept& percept) {
     return state;
   }
   state.time = percept.time;
+  const bool fromRight = playsFromRight(state.game);
   stages.game.update(percept, state.game);
   stages.followBeam();
   const protocol::Vision* vision = percept.vision ? &*percept.vision : nullptr;
@@ -163,10 +168,13 @@ const WorldState& WorldModel::update(const protocol::Percept& percept) {
     stages.body.correctTilt(stages.localization.tiltCorrection(), state.body);
     const PoseBelief& belief = stages.localization.belief();
     const bool sure = std::sqrt(belief.covariance(kPositionState, kPositionState)) < kLocalizedSigma;
-    if (sure && stages.game.noticePlace(belief.p_WR.x(), state.game)) {
-      stages.ball.mirror();
-      stages.players.mirror(state);
+    if (sure && stages.localization.lastLandmark() == state.time) {
+      stages.game.noticePlace(belief.p_WR.x(), state.time, state.game);
     }
+  }
+  if (playsFromRight(state.game) != fromRight) {
+    stages.ball.mirror();
+    stages.players.mirror(state);
   }
   stages.fillSelf();
   stages.followOthers(percept);

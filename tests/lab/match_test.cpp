@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/lab/match_localization.h"
 #include "nonet/lab/work_crew.h"
+#include "nonet/math/angle.h"
 
 namespace nonet::lab {
 namespace {
@@ -104,12 +106,81 @@ TEST(Match, SameSeedSameMatchOnAnyNumberOfThreads) {
 
 TEST(Match, CanBeStopped) {
   int cycles = 0;
-  const MatchResult result =
-      playInProcess(shortMatch(1), NONET_SOURCE_DIR, 1,
-                    [&](const sim::Simulation&, const MatchWatcher&) { return ++cycles < 10; });
+  MatchObservers observers;
+  observers.afterCycle = [&](const sim::Simulation&, const MatchWatcher&) { return ++cycles < 10; };
+  const MatchResult result = playInProcess(shortMatch(1), NONET_SOURCE_DIR, 1, observers);
   EXPECT_EQ(result.cycles, 10);
   EXPECT_FALSE(result.finished);
   EXPECT_FALSE(result.flawless());
+}
+
+TEST(Match, LocalizationOfAllPlayersIsMeasuredAgainstTheSimulation) {
+  MatchLocalization localization;
+  long visions = 0;
+  MatchObservers observers;
+  observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher&) {
+    localization.afterCycle(simulation);
+    return true;
+  };
+  observers.afterThought = [&](const Thought& thought) {
+    localization.afterThought(thought);
+    visions += thought.percept.vision ? 1 : 0;
+  };
+  const MatchResult watched = playInProcess(shortMatch(5), NONET_SOURCE_DIR, 1, observers);
+  EXPECT_EQ(watched.signature, playInProcess(shortMatch(5), NONET_SOURCE_DIR, 1).signature)
+      << "watching changes nothing";
+
+  // None left out but what is seen before the first cycle has ended.
+  const LocalizationReport::Summary all = localization.all().summary();
+  EXPECT_GE(static_cast<long>(all.frames), visions - 4);
+  EXPECT_GT(all.frames, 100U);
+  EXPECT_LT(all.position.median, 0.02);
+  EXPECT_LT(all.heading.median, toRadians(0.15));
+  const nlohmann::ordered_json json = localization.toJson();
+  EXPECT_EQ(json["players"].size(), 4U);
+  std::size_t sum = 0;
+  for (const char* activity : {"standing", "walking", "fallen"})
+    sum += json[activity]["frames"].get<std::size_t>();
+  EXPECT_EQ(sum, all.frames);
+}
+
+TEST(Match, EverybodyKnowsTheOwnSideAtOnceAfterHalfTime) {
+  // Vision comes in every third message, so half time is moved through all three places between two of them.
+  for (int phase = 0; phase < 3; ++phase) {
+    MatchChoice choice = shortMatch(3);
+    choice.minutes = (3.0 + 2.0 * phase * kCycleTime) / 60.0;
+    choice.settings.changeSidesInSecondHalf = true;
+    // Torsos in the frames of their teams: after the last cycle, and one cycle before, which is what a
+    // message shows when it is read.
+    std::map<sim::AgentHandle, Vector2> now;
+    std::map<sim::AgentHandle, Vector2> shown;
+    double halfTime = 0.0;
+    MatchObservers observers;
+    observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher&) {
+      shown = now;
+      const double time = static_cast<double>(simulation.match().serverTime);
+      if (simulation.match().half == 2 && halfTime == 0.0) halfTime = time;
+      for (const sim::AgentInfo& agent : simulation.agents()) {
+        const auto p_W = simulation.world().bodyPose(agent.robot, model::BodyId::Torso).position;
+        const double sign = agent.side == protocol::TeamSide::Right ? -1.0 : 1.0;
+        now[agent.handle] = sign * p_W.head<2>().cast<double>();
+      }
+      return true;
+    };
+    int checked = 0;
+    observers.afterThought = [&](const Thought& thought) {
+      // Two vision messages, the first of which may still show everybody in the old place.
+      if (halfTime == 0.0 || thought.percept.time < halfTime + 0.1) return;
+      const world::WorldState& world = thought.agent.world();
+      ++checked;
+      EXPECT_TRUE(world.game.sidesSwapped);
+      EXPECT_LT((world.self.X_FR.translation - shown.at(thought.handle)).norm(), 0.2)
+          << "phase " << phase << ", agent " << thought.handle << ", " << thought.percept.time - halfTime
+          << " s after half time";
+    };
+    playInProcess(choice, NONET_SOURCE_DIR, 1, observers);
+    EXPECT_GT(checked, 300);
+  }
 }
 
 // A robot that throws its legs forward falls, once, and is counted once however long it lies.

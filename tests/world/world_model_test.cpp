@@ -76,12 +76,57 @@ TEST(GameTracker, StaysWhenTheServerDoesNotChangeSides) {
   protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
   first.game.side = TeamSide::Right;
   tracker.update(first, state);
-  EXPECT_FALSE(tracker.noticePlace(-3.0, state));  // only after half time
+  tracker.noticePlace(-3.0, 1.5, state);  // only after half time
+  EXPECT_FALSE(state.sidesSwapped);
   tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
   tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
-  EXPECT_FALSE(tracker.noticePlace(6.0, state));  // own half of the right team
-  EXPECT_FALSE(tracker.noticePlace(-6.0, state));
+  EXPECT_FALSE(tracker.sideKnown());
+  tracker.noticePlace(6.0, 3.06, state);  // own half of the right team
+  EXPECT_TRUE(tracker.sideKnown());
+  tracker.noticePlace(-6.0, 3.12, state);
   EXPECT_FALSE(state.sidesSwapped);
+}
+
+TEST(GameTracker, TheFirstMessageOfHalfTimeProvesNothing) {
+  // The server has changed the sides and moved the robots, but its first message still shows them where they
+  // stood: in the half that was theirs, or attacking in the other one.
+  for (const bool changed : {false, true}) {
+    for (const double before : {-8.0, 8.0}) {
+      for (const PlayMode last : {PlayMode::PlayOn, PlayMode::GoalRight}) {
+        GameTracker tracker(protocol::TeamName("Us"));
+        GameState state;
+        protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
+        first.game.side = TeamSide::Left;
+        first.game.scoreLeft = 0;  // the score does not help
+        tracker.update(first, state);
+        tracker.update(gameMessage(2.0, last, 299.0), state);
+        tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
+        tracker.noticePlace(before, 3.0, state);
+        EXPECT_FALSE(tracker.sideKnown());
+        EXPECT_FALSE(state.sidesSwapped);
+        tracker.noticePlace(changed ? 2.5 : -2.5, 3.02, state);
+        EXPECT_TRUE(tracker.sideKnown());
+        EXPECT_EQ(state.sidesSwapped, changed);
+      }
+    }
+  }
+}
+
+TEST(GameTracker, WhoCouldNotLookAroundFindsOutAtTheKickOff) {
+  GameTracker tracker(protocol::TeamName("Us"));
+  GameState state;
+  protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
+  first.game.side = TeamSide::Left;
+  tracker.update(first, state);
+  tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
+  tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
+  tracker.update(gameMessage(8.0, PlayMode::KickOffLeft, 300.0), state);
+  EXPECT_EQ(state.phase, Phase::OwnKickOff);
+  tracker.noticePlace(1.0, 8.0, state);  // the taker of the kick-off may stand there
+  EXPECT_FALSE(tracker.sideKnown());
+  tracker.noticePlace(4.0, 8.06, state);
+  EXPECT_TRUE(state.sidesSwapped);
+  EXPECT_EQ(state.phase, Phase::OpponentKickOff);
 }
 
 /// Messages of a robot that stands at a known place and sees a ball and two players.

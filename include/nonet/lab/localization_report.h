@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -30,11 +31,16 @@ class LocalizationReport {
   };
 
   /// After each world update; messages without vision or truth are passed over. The printed truth is rounded
-  /// to 0.01 m: that variance is added to the stated one before the test of coverage.
+  /// to 0.01 m, which the test of coverage allows for.
   void add(const protocol::Percept& percept, const world::WorldState& world);
 
   /// With exact truth: camera position in the own field frame (m) and heading of the camera (rad).
   void add(const world::WorldState& world, const Vector3& p_FC, double heading);
+
+  /// The exact truth of the frame added last, whose printed truth is rounded: the matrix of "me"."head" in a
+  /// recording's line of ground truth (`json`), in world axes. The printed position tells whether the field
+  /// frame is turned. Lines without that matrix, or of another moment, change nothing.
+  void sharpen(std::string_view json);
 
   Summary summary() const;
   /// {"frames", "position_error_m": {"median", "p95", "mean", "max"}, "height_error_m", "heading_error_deg",
@@ -46,13 +52,18 @@ class LocalizationReport {
 
  private:
   struct Frame {
-    Vector3 believed;  // p_FC, m
-    Vector3 truth;     // m
-    double headingError = 0.0;
-    double distance = 0.0;  // squared Mahalanobis distance in the plane
+    Vector3 believed = Vector3::Zero();        // p_FC, m
+    Vector3 truth = Vector3::Zero();           // m
+    double believedHeading = 0.0;              // rad
+    double trueHeading = 0.0;                  // rad
+    Matrix2 covariance = Matrix2::Identity();  // stated, of the camera's x and y, m^2
+    bool rounded = false;                      // the truth is printed with two decimals
     bool localized = false;
+
+    double headingError() const;  // rad
+    bool inside() const;          // the truth lies in the stated 95 % region
   };
-  void record(const world::WorldState& world, const Vector3& p_FC, double heading, double truthVariance);
+  void record(const world::WorldState& world, const Vector3& p_FC, double heading, bool rounded);
 
   std::vector<Frame> frames_;
   world::FieldGeometry field_;

@@ -103,10 +103,24 @@ class MatchWatcher {
   std::optional<double> firstKickOff_;  // server time, s
 };
 
-/// Plays a match in this process. `afterCycle` is called after every cycle and may end the match by returning
-/// false. The result does not depend on `threads`.
-MatchResult playInProcess(
-    const MatchChoice& choice, const std::string& dataFolder, int threads,
-    const std::function<bool(const sim::Simulation&, const MatchWatcher&)>& afterCycle = {});
+/// A message that an agent has absorbed, and what it made of it.
+struct Thought {
+  sim::AgentHandle handle = sim::kNoAgent;
+  const protocol::Percept& percept;
+  const agent::Agent& agent;
+  const protocol::Effectors& answer;
+};
+
+/// What may be watched in a match in one process.
+struct MatchObservers {
+  /// After every cycle; false ends the match.
+  std::function<bool(const sim::Simulation&, const MatchWatcher&)> afterCycle;
+  /// After every message of every agent, before the next cycle; for measurements.
+  std::function<void(const Thought&)> afterThought;
+};
+
+/// Plays a match in this process. The result does not depend on `threads`.
+MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFolder, int threads,
+                          const MatchObservers& observers = {});
 
 }  // namespace nonet::lab

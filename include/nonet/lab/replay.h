@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -26,6 +27,8 @@ struct ReplayOptions {
   std::vector<std::string> parameterFiles;
   /// Called after each message, with the agent stepped; for measurements.
   std::function<void(const Session&)> observer;
+  /// Called with each line of ground truth (JSON) that belongs to the message observed last.
+  std::function<void(std::string_view)> truthObserver;
 };
 
 /// Median and 95th percentile of a sample.

@@ -13,18 +13,23 @@ class GameTracker {
 
   void update(const protocol::Percept& percept, GameState& state);
 
-  /// Tells where the torso is (x in world axes, L at -x). The server changes the sides at half time without a
-  /// word, but in BeforeKickOff it puts every robot that stands in the opponents' half back at once (server
-  /// facts 4.3): who stands there after half time has changed sides. True if the sides were swapped now.
-  bool noticePlace(double x_W, GameState& state);
+  /// Tells where the torso is by landmarks (x in world axes, L at -x). The server changes the sides at half
+  /// time without a word, but until the kick-off it puts every robot that stands in the opponents' half back
+  /// at once (server facts 4.3): who stands there after half time has changed sides. Its first message of the
+  /// half still shows the robots where they were, so that one proves nothing.
+  void noticePlace(double x_W, double time, GameState& state);
+
+  /// False from half time until it has become clear whether the sides were changed.
+  bool sideKnown() const { return sideKnown_; }
 
  private:
   void setPhase(Phase phase, double time, GameState& state) const;
 
   protocol::TeamName team_;
-  bool started_ = false;     // the first message was seen
-  bool played_ = false;      // the game has been under way in this half
-  bool sideChecked_ = true;  // nothing to find out
+  bool started_ = false;  // the first message was seen
+  bool played_ = false;   // the game has been under way in this half
+  bool sideKnown_ = true;
+  double halfSince_ = 0.0;  // server time at which half time was noticed, s
   int scoreLeft_ = 0;
   int scoreRight_ = 0;
 };

@@ -8,7 +8,9 @@
 // is taken from the landmarks alone, or the particle filter is asked.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 
 #include "nonet/math/random.h"
 #include "nonet/world/body_state.h"
@@ -32,14 +34,17 @@ class Localization {
   /// Moves the belief with the body, then corrects it with what was seen (nullptr: nothing in this cycle).
   void update(const BodyState& body, const protocol::Vision* vision);
 
-  /// The robot has probably been put at this place (W), upright, with the server's beam noise. It is a
-  /// hypothesis: taken when what is seen fits it and not the present belief.
-  void expectPlace(const Pose2& X_WR, double time);
+  /// The robot has probably been put at one of these places (W), upright, with the server's beam noise. They
+  /// are hypotheses: taken when what is seen fits one of them and not the present belief. At most two; that
+  /// is for a robot that does not know on which side it plays.
+  void expectPlaces(std::span<const Pose2> X_WR, double time);
 
   const FieldMap& map() const { return *map_; }
   const PoseBelief& belief() const { return belief_; }
   bool initialised() const { return initialised_; }
   double lastCorrection() const { return lastCorrection_; }
+  /// Server time of the last correction with a landmark: lines alone look alike from several places.
+  double lastLandmark() const { return lastLandmark_; }
   /// Rotation vector in G by which the body's torso orientation was found wrong in the last update; to be fed
   /// back to the body tracker.
   const Vector3& tiltCorrection() const { return tiltCorrection_; }
@@ -54,10 +59,10 @@ class Localization {
   bool relocate(const BodyState& body);
   PoseBelief movedBelief(double positionSigma, double headingSigma) const;
   std::optional<PoseBelief> shiftedByLandmarks(const BodyState& body) const;
-  std::optional<PoseBelief> fromLandmarks(const BodyState& body) const;
+  std::optional<PoseBelief> fromLandmarks(const BodyState& body, bool upright) const;
   PoseBelief wideBelief(const Pose2& X_WR, double positionSigma, double headingSigma,
                         const BodyState& body) const;
-  std::optional<PoseBelief> fromExpectation(const BodyState& body) const;
+  bool tryExpectations(const BodyState& body);
   bool tryFit(PoseBelief belief, const BodyState& body);
   bool plausible(const FitReport& report) const;
   void adopt(const PoseBelief& belief, const BodyState& body);
@@ -82,13 +87,16 @@ class Localization {
   double yawOffset_ = 0.0;  // heading of G in W, rad
   Vector3 lastP_GR_ = Vector3::Zero();
   bool hasLast_ = false;
-  Pose2 step_;  // odometry since the last vision frame
+  double pace_ = 0.0;  // m/s, horizontal speed of the last half second
+  Pose2 step_;         // odometry since the last vision frame
   int misses_ = 0;
   double moveSigma_ = 0.2;         // m, size of the recent moves by others
   double moveHeadingSigma_ = 0.3;  // rad
   double lastCorrection_ = kNever;
+  double lastLandmark_ = kNever;
   Vector3 tiltCorrection_ = Vector3::Zero();
-  std::optional<Pose2> expectedPlace_;
+  std::array<Pose2, 2> expectedPlaces_;
+  std::size_t expectedCount_ = 0;
   double expectedSince_ = kNever;
   int challenges_ = 0;  // vision frames in a row in which the particle filter knew better
 };
