@@ -9,7 +9,7 @@ packages=(
   libasio-dev libcli11-dev libtomlplusplus-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libzstd-dev zlib1g-dev                                 # log files
   libopenmpi-dev openmpi-bin libpagmo-dev                # distributed training; CMA-ES to compare ours with
-  libgtest-dev libgmock-dev libbenchmark-dev             # tests and benchmarks
+  libgtest-dev libgmock-dev libbenchmark-dev libsexp-dev # tests and benchmarks
   clang clang-format clang-tidy libclang-rt-14-dev       # checks and fuzzing
   python3
 )

@@ -17,6 +17,7 @@ struct MatchArguments {
   int threads = 1;
   bool inProcess = false;
   bool localization = false;
+  bool alone = false;
   std::string json = "logs/match.json";
   std::vector<std::string> settingFiles;
   std::vector<std::string> assignments;
@@ -25,8 +26,7 @@ struct MatchArguments {
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
                           lab::MatchLocalization& localization) {
   const lab::MatchChoice& match = arguments.options.match;
-  console.say(fmt::format("{} against {}, {} a side, seed {}, in one process with {} threads",
-                          match.left.name, match.right.name, match.left.players, match.seed,
+  console.say(fmt::format("{}, seed {}, in one process with {} threads", lab::matchTitle(match), match.seed,
                           arguments.threads));
   lab::MatchObservers observers;
   observers.afterCycle = [&](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
@@ -44,7 +44,8 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
 
 int runMatch(MatchArguments& arguments) {
   lab::MatchChoice& match = arguments.options.match;
-  match.left.players = match.right.players = arguments.players;
+  match.left.players = arguments.players;
+  match.right.players = arguments.alone ? 0 : arguments.players;
   for (const std::string& file : arguments.settingFiles) match.settings.overlayFile(file);
   for (const std::string& assignment : arguments.assignments) match.settings.setAssignment(assignment);
   if (match.left.name == match.right.name)
@@ -84,6 +85,7 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--players", arguments->players, "Players a side")
       ->capture_default_str()
       ->check(CLI::Range(1, 11));
+  command->add_flag("--alone", arguments->alone, "The right team stays away");
   command->add_option("--left", match.left.name, "Name of the left team")->capture_default_str();
   command->add_option("--right", match.right.name, "Name of the right team")->capture_default_str();
   command->add_option("--left-params", match.left.parameterFiles, "Parameter files of the left team")
@@ -92,7 +94,7 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingFile);
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
   command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
-  command->add_option("--monitor-log", options.monitorLog, "Record the monitor stream, for RoboViz");
+  command->add_option("--monitor-log", match.monitorLog, "Record the monitor stream, for RoboViz");
   command->add_option("--port", options.port, "Port for agents, 0: any free one")->capture_default_str();
   command->add_option("--monitor-port", options.monitorPort, "Port for monitors, 0: any free one")
       ->capture_default_str();

@@ -90,10 +90,10 @@ class TcpMatch {
 
   lab::MatchResult run() {
     if (!options_.logs.empty()) fs::create_directories(options_.logs);
-    console_.say(fmt::format("{} against {}, {} a side, seed {}, {}; agents on port {}, monitors on port {}",
-                             options_.match.left.name, options_.match.right.name, options_.match.left.players,
-                             options_.match.seed, options_.realTime ? "real time" : "lock-step",
-                             server_.agentPort(), server_.monitorPort()));
+    console_.say(fmt::format("{}, seed {}, {}; agents on port {}, monitors on port {}",
+                             lab::matchTitle(options_.match), options_.match.seed,
+                             options_.realTime ? "real time" : "lock-step", server_.agentPort(),
+                             server_.monitorPort()));
     startAgents();
     server_.onCycle([this](const sim::Simulation& simulation) { afterCycle(simulation); });
     std::thread guard([this] { watchProcesses(); });
@@ -117,7 +117,7 @@ class TcpMatch {
     server.realTime = options_.realTime;
     server.answerTimeout = options_.answerTimeout;
     server.players = options_.match.left.players + options_.match.right.players;
-    server.monitorLog = options_.monitorLog;
+    server.monitorLog = options_.match.monitorLog;
     server.endWithMatch = true;
     server.handleSignals = true;
     return server;

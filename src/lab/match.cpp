@@ -6,6 +6,7 @@
 
 #include "nonet/lab/work_crew.h"
 #include "nonet/protocol/play_mode.h"
+#include "nonet/sim/monitor.h"
 #include "nonet/sim/server_lobby.h"
 
 namespace nonet::lab {
@@ -43,6 +44,12 @@ void enter(std::vector<InProcessPlayer>& players, sim::Simulation& simulation, s
 }
 
 }  // namespace
+
+std::string matchTitle(const MatchChoice& choice) {
+  if (choice.right.players == 0)
+    return fmt::format("{} alone, {} players", choice.left.name, choice.left.players);
+  return fmt::format("{} against {}, {} a side", choice.left.name, choice.right.name, choice.left.players);
+}
 
 sim::Settings matchSettings(const MatchChoice& choice) {
   sim::Settings settings = choice.settings;
@@ -145,6 +152,8 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
     players.emplace_back().agent = std::make_unique<agent::Agent>(makeAgentConfig(agent, dataFolder));
   }
   enter(players, simulation, choice.seed);
+  std::optional<sim::MonitorLog> monitorLog;
+  if (!choice.monitorLog.empty()) monitorLog.emplace(simulation, choice.monitorLog);
 
   WorkCrew crew(threads);
   const std::function<void(int)> think = [&](int i) {
@@ -168,6 +177,7 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
       }
     }
     simulation.step();
+    if (monitorLog) monitorLog->cycle();
     watcher.update(simulation);
     if (watcher.result().finished && ++afterEnd > kLinger) more = false;
     if (observers.afterCycle && !observers.afterCycle(simulation, watcher)) more = false;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/team/navigation.h"
+#include "nonet/team/play_time.h"
+
 namespace nonet::team {
 
 namespace {
@@ -24,9 +27,8 @@ MotionRequest walk(const Pose2& target, bool stop) {
   return request;
 }
 
-}  // namespace
-
-Vector2 ballTarget(const world::WorldState& world) {
+// Where the ball should end up if nobody were on the field.
+Vector2 goalTarget(const world::WorldState& world) {
   const double goalX = 0.5 * world.field.length;
   const Vector2 ball = world.ball.p_FB.head<2>();
   // Near the opponent's goal line but beside the goal, first bring the ball to the middle.
@@ -36,8 +38,81 @@ Vector2 ballTarget(const world::WorldState& world) {
   return {goalX + 0.2, std::clamp(ball.y(), -inside, inside)};
 }
 
+// Of an opponent near the ball, how much it bars this direction, 0 .. 1.
+double barred(const world::WorldState& world, double direction) {
+  constexpr double kReach = 1.5;  // m
+  constexpr double kWidth = 0.6;  // rad to either side at full strength
+  double most = 0.0;
+  for (const world::PlayerState& player : world.opponents) {
+    if (!player.known) continue;
+    const Vector2 offset = player.X_FP.translation - world.ball.p_FB.head<2>();
+    const double distance = offset.norm();
+    if (distance > kReach) continue;
+    const double angle = std::abs(angleDifference(std::atan2(offset.y(), offset.x()), direction));
+    const double nearness = 1.0 - distance / kReach;
+    most = std::max(most, nearness * std::clamp(2.0 - angle / kWidth, 0.0, 1.0));
+  }
+  return most;
+}
+
+// A place behind the ball as it will lie when we come there.
+Pose2 approachPose(const world::WorldState& world, const Vector2& p_FTarget, const TeamParameters& parameters,
+                   double behind) {
+  const BallForecast forecast(world);
+  const Vector2 ball =
+      forecast.at(timeToBall({world.self.X_FR, true, false}, forecast, p_FTarget, parameters.pace));
+  const Vector2 way = p_FTarget - ball;
+  return {ball - behind * way.normalized(), std::atan2(way.y(), way.x())};
+}
+
+}  // namespace
+
+Vector2 ballTarget(const world::WorldState& world) {
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  Vector2 target = goalTarget(world);
+  const Vector2 way = target - ball;
+  const double straight = std::atan2(way.y(), way.x());
+  if (barred(world, straight) == 0.0) return target;
+  double best = straight;
+  double bestScore = -1e9;
+  for (int i = -4; i <= 4; ++i) {
+    const double turn = i * toRadians(15);
+    const Vector2 end = ball + Vector2(std::cos(straight + turn), std::sin(straight + turn));
+    const bool out = std::abs(end.y()) > 0.5 * world.field.width - 0.2;
+    const double facing = angleDifference(straight + turn, world.self.X_FR.rotation);
+    const double score =
+        std::cos(turn) - 0.8 * barred(world, straight + turn) - 0.05 * facing * facing - (out ? 1.0 : 0.0);
+    if (score <= bestScore) continue;
+    bestScore = score;
+    best = straight + turn;
+  }
+  if (best != straight) target = ball + 2.0 * Vector2(std::cos(best), std::sin(best));
+  return target;
+}
+
+MotionRequest waitAtBall(const world::WorldState& world, const Vector2& p_FTarget,
+                         const TeamParameters& parameters) {
+  Caution caution;
+  caution.robots = parameters.avoidDistance;
+  caution.ball = 0.25;
+  return walkTo(world, approachPose(world, p_FTarget, parameters, parameters.ball.waitBehind), caution);
+}
+
+MotionRequest playBall(const world::WorldState& world, const Vector2& p_FTarget,
+                       const TeamParameters& parameters, KickUse use) {
+  if (world.ball.p_RB.norm() < parameters.ball.handleDistance)
+    return handleBall(world, p_FTarget, parameters.ball, use);
+  Caution caution;
+  caution.robots = parameters.avoidDistance;
+  caution.duel = true;
+  MotionRequest request =
+      walkTo(world, approachPose(world, p_FTarget, parameters, parameters.ball.behindBall), caution);
+  request.stopAtTarget = false;
+  return request;
+}
+
 MotionRequest handleBall(const world::WorldState& world, const Vector2& p_FTarget,
-                         const BallHandlingParameters& parameters) {
+                         const BallHandlingParameters& parameters, KickUse use) {
   const Pose2& X_FR = world.self.X_FR;
   const Vector2 ball = world.ball.p_RB;               // robot frame
   const Vector2 target = X_FR.inverse() * p_FTarget;  // robot frame
@@ -54,8 +129,9 @@ MotionRequest handleBall(const world::WorldState& world, const Vector2& p_FTarge
     const double foot = std::abs(ball.y());
     const bool inPlace = ball.x() > parameters.kickForwardLow && ball.x() < parameters.kickForwardHigh &&
                          std::abs(foot - parameters.kickAside) < parameters.kickAsideTolerance;
-    if (parameters.kick && inPlace && std::abs(direction) < parameters.kickAngle &&
-        !opponentNear(world, parameters.kickOpponentDistance)) {
+    const bool near = use == KickUse::Clear || way.norm() < parameters.kickRange;
+    if (parameters.kick && use != KickUse::Never && near && inPlace &&
+        std::abs(direction) < parameters.kickAngle && !opponentNear(world, parameters.kickOpponentDistance)) {
       MotionRequest request;
       request.kind = MotionRequest::Kind::Kick;
       request.ball = ball;

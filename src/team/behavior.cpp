@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "nonet/team/ball_handling.h"
-#include "nonet/team/navigation.h"
+#include "nonet/team/play_time.h"
+#include "nonet/team/set_play.h"
 
 namespace nonet::team {
 
@@ -19,21 +20,6 @@ bool isBeamPhase(Phase phase) {
   return phase == Phase::BeforeKickOff || phase == Phase::OwnGoal || phase == Phase::OpponentGoal;
 }
 
-bool isOpponentKick(Phase phase) {
-  switch (phase) {
-    case Phase::OpponentKickOff:
-    case Phase::OpponentKickIn:
-    case Phase::OpponentCorner:
-    case Phase::OpponentGoalKick:
-    case Phase::OpponentFreeKick:
-    case Phase::OpponentDirectFreeKick:
-    case Phase::OpponentPass:
-      return true;
-    default:
-      return false;
-  }
-}
-
 void lookAtBall(const WorldState& world, HeadRequest& head) {
   const bool recently = world.ball.known && world.time - world.ball.lastSeen < 2.0;
   const bool lost = !world.self.localized && world.time - world.self.lastCorrection > 1.0;
@@ -45,30 +31,61 @@ void lookAtBall(const WorldState& world, HeadRequest& head) {
   head.p_RP = Vector3(world.ball.p_RB.x(), world.ball.p_RB.y(), world.ball.p_FB.z() - world.self.height);
 }
 
-MotionRequest stand() {
-  return {};
-}
+constexpr double kClaimAge = 1.0;       // s for which the goalie's word holds
+constexpr double kReceiverReady = 0.6;  // m from its place
+constexpr double kKickOffLine = 0.6;    // m behind the halfway line that others than the taker stay
 
 }  // namespace
 
-Behavior::Behavior(const TeamParameters& parameters) : parameters_(parameters) {}
+Behavior::Behavior(const TeamParameters& parameters) : parameters_(parameters), goalie_(parameters) {}
 
 Intent Behavior::update(const WorldState& world, bool motionBusy) {
   Intent intent;
-  intent.motion = stand();
   lookAtBall(world, intent.head);
-  intent.say = radio_.update(world);
   const Phase phase = world.game.phase;
   if (phase != lastPhase_) {
     beamed_ = false;
     lastPhase_ = phase;
   }
+  agree(world);
   if (isBeamPhase(phase)) {
     beforeKickOff(world, intent);
   } else if (phase != Phase::GameOver && phase != Phase::Other && !motionBusy) {
     play(world, intent);
   }
+  intent.say = radio_.update(world, tidings(world));
   return intent;
+}
+
+// Who is on the ball and who stands where, also while one lies on the ground or waits for the kick-off.
+void Behavior::agree(const WorldState& world) {
+  touches_.update(world);
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  FormationParameters parameters = parameters_.formation;
+  if (world::isOpponentSetPiece(world.game.phase)) {
+    // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
+    parameters.stopperBehind =
+        std::max(parameters.stopperBehind, parameters_.clearOfOpponentKick + parameters.apart);
+  }
+  formation_ = formationFor(ball, kMaxAssigned, world.field, parameters);
+  voting_.update(world, formation_, ballTarget(world), touches_.banned(), parameters_);
+  role_ = world.game.unum == 1 ? Role::Goalie : voting_.role();
+}
+
+Tidings Behavior::tidings(const WorldState& world) const {
+  Tidings tidings;
+  tidings.vote = voting_.vote();
+  const bool goes = role_ == Role::Goalie ? goalie_.claimsBall() : mayTouch(world);
+  if (goes) {
+    const Runner self{world.self.X_FR, true, world::isFallen(world.body.posture)};
+    tidings.timeToBall = timeToBall(self, BallForecast(world), ballTarget(world), parameters_.pace);
+  }
+  return tidings;
+}
+
+bool Behavior::goalieClaims(const WorldState& world) {
+  const world::RadioReport& report = world.radio[1];
+  return world.time - report.time < kClaimAge && report.message.timeToBall && !report.message.fallen;
 }
 
 bool Behavior::ownKickOffNext(const WorldState& world) const {
@@ -96,49 +113,6 @@ void Behavior::beforeKickOff(const WorldState& world, Intent& intent) {
   }
 }
 
-void Behavior::updateRole(const WorldState& world) {
-  // Players in the order of their numbers: every team mate computes the same from the same view.
-  std::array<Vector2, kMaxAssigned> places{};
-  std::array<int, kMaxAssigned> unums{};
-  int count = 0;
-  int me = -1;
-  for (int unum = 2; unum <= world::kTeamSize && count < kMaxAssigned; ++unum) {
-    const bool self = unum == world.game.unum;
-    if (!self && !world.teammates[unum].known) continue;
-    if (self) me = count;
-    places[count] = self ? world.self.X_FR.translation : world.teammates[unum].X_FP.translation;
-    unums[count] = unum;
-    ++count;
-  }
-  if (me < 0) return;
-  const Vector2 ball = world.ball.p_FB.head<2>();
-  const Formation formation = formationFor(ball, count, world.field, parameters_.formation);
-
-  // The player nearest to the ball takes it (section 6 of the paper); the others share the rest by
-  // assignment.
-  int onBall = 0;
-  for (int i = 1; i < count; ++i)
-    if ((places[i] - ball).norm() < (places[onBall] - ball).norm()) onBall = i;
-  if (onBall == me) {
-    role_ = Role::OnBall;
-    roleTarget_ = ball;
-    return;
-  }
-  std::array<Vector2, kMaxAssigned> others{};
-  int myPlace = 0;
-  int n = 0;
-  for (int i = 0; i < count; ++i) {
-    if (i == onBall) continue;
-    if (i == me) myPlace = n;
-    others[n++] = places[i];
-  }
-  const std::size_t size = static_cast<std::size_t>(n);
-  const Assignment assignment =
-      assigner_.assign({others.data(), size}, {formation.positions.data() + 1, size});
-  role_ = static_cast<Role>(assignment[myPlace] + 1);
-  roleTarget_ = formation.positions[assignment[myPlace] + 1];
-}
-
 void Behavior::searchBall(const WorldState& world, Intent& intent) const {
   intent.motion.kind = MotionRequest::Kind::WalkVelocity;
   intent.motion.velocity = Pose2(0.0, 0.0, world.ball.p_RB.y() >= 0.0 ? 0.8 : -0.8);
@@ -146,7 +120,7 @@ void Behavior::searchBall(const WorldState& world, Intent& intent) const {
 }
 
 void Behavior::play(const WorldState& world, Intent& intent) {
-  const bool isGoalie = world.game.unum == 1;
+  const bool isGoalie = role_ == Role::Goalie;
   if (!world.ball.known) {
     // Only once the head has had time to look around does the body turn.
     if (!isGoalie && world.time - world.ball.lastSeen > 2.0 && world.time - world.game.phaseSince > 3.0)
@@ -155,62 +129,70 @@ void Behavior::play(const WorldState& world, Intent& intent) {
   }
   if (!world.self.localized) return;
   if (isGoalie) {
-    role_ = Role::Goalie;
-    goalie(world, intent);
-    return;
+    intent.motion = goalie_.update(world, mayTouch(world));
+  } else {
+    fieldPlayer(world, intent);
   }
-  updateRole(world);
-  const Vector2 ball = world.ball.p_FB.head<2>();
-  if (isOpponentKick(world.game.phase)) {
-    // Everybody keeps the distance that the referee enforces, on the own goal's side of the ball.
-    const Vector2 ownGoal(-0.5 * world.field.length, 0.0);
-    Vector2 place = roleTarget_;
-    const double clear = parameters_.clearOfOpponentKick;
-    if ((place - ball).norm() < clear) place = ball + clear * (ownGoal - ball).normalized();
-    if (world.game.phase == Phase::OpponentKickOff) place.x() = std::min(place.x(), -0.6);
-    intent.motion = walkTo(world, Pose2(place, headingTo(world, ball)), parameters_.avoidDistance);
-    return;
-  }
-  if (role_ == Role::OnBall) {
-    intent.motion = handleBall(world, ballTarget(world), parameters_.ball);
-    return;
-  }
-  Vector2 place = roleTarget_;
-  if (world.game.phase == Phase::OwnKickOff) place.x() = std::min(place.x(), -0.6);
-  intent.motion = walkTo(world, Pose2(place, headingTo(world, ball)), parameters_.avoidDistance);
 }
 
-void Behavior::goalie(const WorldState& world, Intent& intent) {
-  const GoalieParameters& parameters = parameters_.goalie;
-  const Vector2 ball = world.ball.p_FB.head<2>();
-  const Vector2 speed = world.ball.v_FB.head<2>();
-  const Vector2 goal(-0.5 * world.field.length, 0.0);
-  const Vector2 self = world.self.X_FR.translation;
+void Behavior::fieldPlayer(const WorldState& world, Intent& intent) const {
+  if (world::isOpponentSetPiece(world.game.phase)) {
+    intent.motion = opponentSetPiece(world);
+  } else if (world::isOwnSetPiece(world.game.phase)) {
+    intent.motion = ownSetPiece(world);
+  } else if (role_ == Role::OnBall && mayTouch(world) && !goalieClaims(world)) {
+    intent.motion = playBall(world, ballTarget(world), parameters_, KickUse::Shot);
+  } else if (role_ == Role::OnBall) {
+    // Ready beside the one who plays it.
+    const Vector2 ball = world.ball.p_FB.head<2>();
+    intent.motion = support(world, ball + Vector2(parameters_.onBallRoom, 0.0));
+  } else {
+    intent.motion = support(world, formation_.positions[static_cast<std::size_t>(role_)]);
+  }
+}
 
-  // A ball that will cross the line through the goalie on its way into the goal.
-  if (parameters.dive && world.game.phase == Phase::PlayOn && speed.x() < -0.5) {
-    const double time = (self.x() - ball.x()) / speed.x();
-    const double crossing = ball.y() + speed.y() * time;
-    const double aside = crossing - self.y();
-    const bool reachesUs = world.ball.p_FRest.x() < self.x();
-    const bool atGoal = std::abs(crossing) < 0.5 * world.field.goalWidth + 0.2;
-    if (time > 0.0 && time < parameters.diveTime && reachesUs && atGoal &&
-        std::abs(aside) > parameters.diveReach) {
-      intent.motion.kind = MotionRequest::Kind::Skill;
-      intent.motion.skill.assign("dive");
-      intent.motion.side = aside > 0.0 ? model::Side::Left : model::Side::Right;
-      return;
-    }
+MotionRequest Behavior::support(const WorldState& world, const Vector2& place) const {
+  Caution caution;
+  caution.robots = parameters_.avoidDistance;
+  caution.ball = parameters_.avoidDistance;
+  caution.onBall = goalieClaims(world) ? 1 : voting_.onBall();
+  caution.onBallRoom = parameters_.onBallRoom;
+  return walkTo(world, Pose2(place, headingTo(world, world.ball.p_FB.head<2>())), caution);
+}
+
+// Everybody keeps the distance that the referee enforces; the one on the ball waits on the own goal's side.
+MotionRequest Behavior::opponentSetPiece(const WorldState& world) const {
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const Vector2 ownGoal(-0.5 * world.field.length, 0.0);
+  Vector2 place = formation_.positions[static_cast<std::size_t>(role_)];
+  if (role_ == Role::OnBall) place = ball + 0.1 * (ownGoal - ball).normalized();
+  const Vector2 away = place - ball;
+  const double clear = parameters_.clearOfOpponentKick;
+  if (away.norm() < clear) place = ball + clear * (away + Vector2(-1e-3, 0.0)).normalized();
+  if (world.game.phase == Phase::OpponentKickOff) place.x() = std::min(place.x(), -kKickOffLine);
+  return support(world, place);
+}
+
+MotionRequest Behavior::ownSetPiece(const WorldState& world) const {
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const Phase phase = world.game.phase;
+  const SetPlay plan = setPlayFor(phase, ball, world.field);
+  const bool taker = role_ == Role::OnBall && !goalieClaims(world);
+  if (taker) {
+    const bool ready =
+        std::any_of(world.teammates.begin() + 2, world.teammates.end(), [&](const world::PlayerState& mate) {
+          const bool self = &mate == &world.teammates[static_cast<std::size_t>(world.game.unum)];
+          return mate.known && !self && !mate.fallen &&
+                 (mate.X_FP.translation - plan.p_FReceiver).norm() < kReceiverReady;
+        });
+    const double waited = world.time - world.game.phaseSince;
+    if (!ready && waited < parameters_.waitForReceiver) return waitAtBall(world, plan.p_FTarget, parameters_);
+    return playBall(world, plan.p_FTarget, parameters_, KickUse::Never);
   }
-  const bool ballNear = (ball - goal).norm() < parameters.attackDistance;
-  if (ballNear && !isOpponentKick(world.game.phase) && speed.norm() < 0.5) {
-    intent.motion = handleBall(world, ballTarget(world), parameters_.ball);
-    return;
-  }
-  const Vector2 toBall = (ball - goal).normalized();
-  Vector2 place = goal + parameters.outOfGoal * toBall;
-  place.x() = std::max(place.x(), goal.x() + 0.2);
-  intent.motion = walkTo(world, Pose2(place, headingTo(world, ball)), parameters_.avoidDistance);
+  Vector2 place =
+      role_ == Role::Stopper ? plan.p_FReceiver : formation_.positions[static_cast<std::size_t>(role_)];
+  if (phase == Phase::OwnKickOff) place.x() = std::min(place.x(), -kKickOffLine);
+  return support(world, place);
 }
 
 }  // namespace nonet::team

@@ -2,8 +2,73 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include "nonet/team/set_play.h"
 
 namespace nonet::team {
+
+namespace {
+
+Vector2 insideField(const Vector2& place, const world::FieldGeometry& field, double margin) {
+  const double x = 0.5 * field.length - margin;
+  const double y = 0.5 * field.width - margin;
+  return {std::clamp(place.x(), -x, x), std::clamp(place.y(), -y, y)};
+}
+
+// What a place must keep: distance from the more important places, nobody but the nearer back with the goalie
+// in the own penalty area (illegal defence, server facts 4.10), backs on the own side of the ball.
+struct PlaceRules {
+  const Formation& formation;
+  const world::FieldGeometry& field;
+  const FormationParameters& parameters;
+
+  bool allows(int index, const Vector2& place) const {
+    const Role role = static_cast<Role>(index);
+    const bool back = role == Role::BackLeft || role == Role::BackRight;
+    if (role != Role::BackLeft && inOwnArea(place, 0.3)) return false;
+    const bool atOwnGoal = role == Role::BackRight && inOwnArea(formation.positions[0], 0.0);
+    if (back && !atOwnGoal && beyondBall(place)) return false;
+    for (int j = 0; j < index; ++j)
+      if ((place - formation.positions[j]).norm() < parameters.apart) return false;
+    return true;
+  }
+
+  bool inOwnArea(const Vector2& place, double margin) const {
+    return place.x() < -0.5 * field.length + field.areaLength + margin &&
+           std::abs(place.y()) < 0.5 * field.areaWidth + margin;
+  }
+
+  bool beyondBall(const Vector2& place) const {
+    const Vector2 ownGoal(-0.5 * field.length, 0.0);
+    const Vector2 way = formation.positions[0] - ownGoal;
+    return (place - ownGoal).dot(way) >= way.squaredNorm();
+  }
+};
+
+// Near the lines and the own goal places come together: the less important one takes the nearest place that
+// is free.
+void spread(Formation& formation, const world::FieldGeometry& field, const FormationParameters& parameters) {
+  constexpr double kRing = 0.25;  // m
+  constexpr int kRings = 20;
+  constexpr int kDirections = 16;
+  const PlaceRules rules{formation, field, parameters};
+  for (int i = 1; i < formation.count; ++i) {  // the one on the ball follows it to the line
+    const Vector2 wanted = insideField(formation.positions[i], field, parameters.touchLineMargin);
+    formation.positions[i] = wanted;
+    bool found = rules.allows(i, wanted);
+    for (int k = 0; k < kRings * kDirections && !found; ++k) {
+      const double angle = 2.0 * kPi * (k % kDirections) / kDirections;
+      const double radius = kRing * (1 + k / kDirections);  // NOLINT(bugprone-integer-division): ring number
+      const Vector2 place = insideField(wanted + radius * Vector2(std::cos(angle), std::sin(angle)), field,
+                                        parameters.touchLineMargin);
+      found = rules.allows(i, place);
+      if (found) formation.positions[i] = place;
+    }
+  }
+}
+
+}  // namespace
 
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
                        const FormationParameters& parameters) {
@@ -32,19 +97,15 @@ Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometr
 
   Formation formation;
   formation.count = count;
-  const double x = 0.5 * field.length - parameters.touchLineMargin;
-  const double y = 0.5 * field.width - parameters.touchLineMargin;
-  for (int i = 0; i < count; ++i) {
-    const bool isBall = i == 0;  // the one on the ball follows it to the line
-    formation.positions[i] =
-        isBall ? wanted[i] : Vector2(std::clamp(wanted[i].x(), -x, x), std::clamp(wanted[i].y(), -y, y));
-  }
+  for (int i = 0; i < count; ++i) formation.positions[i] = wanted[i];
+  spread(formation, field, parameters);
   return formation;
 }
 
 Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field) {
   // For the 30 x 20 field; other sizes are scaled. The kicking side may stand at the ball, the other one must
   // be outside the centre circle (radius 2).
+  constexpr int kKickOffTaker = 9;
   struct Place {
     double ownX, ownY, otherX, otherY;
   };
@@ -54,10 +115,10 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field) 
       {-9.0, -2.0, -9.0, -2.0},
       {-4.5, 4.5, -4.5, 4.0},  // wings
       {-4.5, -4.5, -4.5, -4.0},
-      {-2.6, 0.8, -2.6, 1.0},  // stopper
-      {-0.6, 5.0, -2.6, 3.2},  // forwards
+      {-0.7, -1.25, -2.6, 1.0},  // receiver of the kick-off
+      {-0.6, 5.0, -2.6, 3.2},    // forwards
       {-0.6, -5.0, -2.6, -3.2},
-      {-0.35, 0.0, -2.6, -1.0},  // on the ball
+      {-0.35, 0.4, -2.6, -1.0},  // takes the kick-off
       {-6.0, 0.0, -6.0, 0.0},
       {-11.0, 0.0, -11.0, 0.0},
   }};
@@ -67,7 +128,9 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field) 
   // Distances to the ball and the circle are the same on every field.
   const double x = ownKickOff ? place.ownX : place.otherX;
   const double y = ownKickOff ? place.ownY : place.otherY;
-  return {x < -3.0 ? x * scaleX : x, y * scaleY, 0.0};
+  const bool atBall = std::abs(x) < field.circleRadius && std::abs(y) < field.circleRadius;
+  const bool taker = ownKickOff && unum == kKickOffTaker;
+  return {x < -3.0 ? x * scaleX : x, atBall ? y : y * scaleY, taker ? kickOffPassAngle() : 0.0};
 }
 
 }  // namespace nonet::team

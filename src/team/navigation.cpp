@@ -1,40 +1,131 @@
 #include "nonet/team/navigation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace nonet::team {
 
 namespace {
 
-// A robot that stands in the way pushes the next point of the way aside, by the more the nearer it is to the
-// line.
-Vector2 aroundOthers(const world::WorldState& world, const Vector2& p_FTarget, double avoidDistance) {
-  const Vector2 start = world.self.X_FR.translation;
-  const Vector2 way = p_FTarget - start;
-  const double length = way.norm();
-  if (length < 1e-3) return p_FTarget;
-  const Vector2 along = way / length;
-  const Vector2 aside(-along.y(), along.x());
+constexpr double kLookAhead = 0.5;   // s by which the others are thought to walk on
+constexpr double kHorizon = 2.0;     // m of the way that must be clear
+constexpr double kFallenRoom = 0.2;  // m more around somebody who lies on the ground
+constexpr double kAtBall = 0.6;      // m from the ball: takes part in the duel
+constexpr double kBodyRoom = 0.35;   // m between two torsos that just touch when both walk
+constexpr double kNarrow = 0.72;     // share of the usual room in a narrow passage
+constexpr double kNarrowCost = 0.3;  // m of free way that it must be worth
+constexpr double kHeadingStep = toRadians(15);
+constexpr double kNear = 0.7;          // m from the target, where its heading counts
+constexpr double kCloseEnough = 0.12;  // m
+constexpr double kFacing = 0.25;       // rad
+constexpr double kDetourStep = 1.0;    // m, distance of the next point on a way around
+constexpr double kSlowStep = 0.25;  // m, the same close to others: the walk slows down towards a near target
 
-  double nearest = length;
-  double shift = 0.0;
-  const auto consider = [&](const world::PlayerState& player) {
+struct Obstacle {
+  Vector2 p_F;
+  double room = 0.0;  // m
+};
+
+struct Obstacles {
+  std::array<Obstacle, 2 * world::kTeamSize + 1> items{};
+  std::size_t count = 0;
+  std::span<const Obstacle> all() const { return {items.data(), count}; }
+};
+
+Obstacles obstaclesFor(const world::WorldState& world, const Caution& caution) {
+  Obstacles obstacles;
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const auto add = [&](const world::PlayerState& player, double room) {
     if (!player.known) return;
-    const Vector2 offset = player.X_FP.translation - start;
-    const double ahead = offset.dot(along);
-    const double beside = offset.dot(aside);
-    if (ahead < 0.05 || ahead > std::min(nearest, 2.0) || std::abs(beside) > avoidDistance) return;
-    nearest = ahead;
-    // Pass on the side on which there is already more room.
-    shift = beside > 0.0 ? beside - avoidDistance : beside + avoidDistance;
+    if (player.fallen) room += kFallenRoom;
+    if (caution.duel && (player.X_FP.translation - ball).norm() < kAtBall) room = kBodyRoom;
+    obstacles.items[obstacles.count++] = {player.X_FP.translation + kLookAhead * player.v_FP, room};
   };
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {
-    if (unum != world.game.unum) consider(world.teammates[unum]);
-    consider(world.opponents[unum]);
+    const auto i = static_cast<std::size_t>(unum);
+    if (unum != world.game.unum)
+      add(world.teammates[i], unum == caution.onBall ? caution.onBallRoom : caution.robots);
+    add(world.opponents[i], caution.robots);
   }
-  if (shift == 0.0 || length < 0.3) return p_FTarget;
-  return start + nearest * along + shift * aside;
+  if (caution.ball > 0.0 && world.ball.known) obstacles.items[obstacles.count++] = {ball, caution.ball};
+  return obstacles;
+}
+
+// How far one can go in this direction before somebody's room begins; somebody whose room one is in already
+// bars the directions that lead nearer.
+double freeWay(const Vector2& start, const Vector2& direction, double length,
+               std::span<const Obstacle> obstacles, double share = 1.0) {
+  double free = length;
+  for (const Obstacle& obstacle : obstacles) {
+    const double room = share * obstacle.room;
+    const Vector2 offset = obstacle.p_F - start;
+    const double ahead = offset.dot(direction);
+    const double squared = offset.squaredNorm();
+    if (ahead <= 0.0) continue;
+    if (squared < room * room) {
+      // Along the edge of the room is allowed, so that one can slip past.
+      if (ahead > 0.2 * std::sqrt(squared)) free = 0.0;
+      continue;
+    }
+    const double besides = squared - ahead * ahead;
+    if (besides >= room * room) continue;
+    free = std::min(free, ahead - std::sqrt(room * room - besides));
+  }
+  return std::max(free, 0.0);
+}
+
+// A place in somebody's room cannot be reached: the nearest one to be had instead.
+Vector2 outsideOfRooms(Vector2 place, const Vector2& start, std::span<const Obstacle> obstacles) {
+  for (const Obstacle& obstacle : obstacles) {
+    if ((place - obstacle.p_F).norm() >= obstacle.room) continue;
+    const Vector2 towardsUs = start - obstacle.p_F;
+    if (towardsUs.norm() > 1e-6) place = obstacle.p_F + obstacle.room * towardsUs.normalized();
+  }
+  return place;
+}
+
+struct Way {
+  double heading = 0.0;
+  bool straight = true;
+  bool anywhere = true;  // false: barred on all sides
+};
+
+// The direction nearest to the wanted one that is clear; of two equal ones that which the robot faces more.
+Way chooseWay(const world::WorldState& world, const Vector2& p_FTarget, std::span<const Obstacle> obstacles) {
+  const Vector2 start = world.self.X_FR.translation;
+  const double wanted = headingTo(world, p_FTarget);
+  const double need = std::min((p_FTarget - start).norm(), kHorizon);
+  const auto direction = [](double angle) { return Vector2(std::cos(angle), std::sin(angle)); };
+  Way best;
+  best.heading = wanted;
+  if (freeWay(start, direction(wanted), need, obstacles) >= need - 1e-9) return best;
+  best.straight = false;
+  double bestScore = -std::numeric_limits<double>::infinity();
+  const double facing = angleDifference(world.self.X_FR.rotation, wanted);
+  const int count = static_cast<int>(std::lround(kPi / kHeadingStep));
+  for (int i = -count; i < count; ++i) {
+    const double turn = i * kHeadingStep;
+    // Between two that stand close together rather than back out of a trap.
+    for (const double share : {1.0, kNarrow}) {
+      const double free = freeWay(start, direction(wanted + turn), std::min(need, 1.0), obstacles, share);
+      const double score = free - 0.4 * std::abs(turn) - 0.1 * std::abs(wrapAngle(turn - facing)) -
+                           (share < 1.0 ? kNarrowCost : 0.0);
+      if (free <= 0.05 || score <= bestScore) continue;
+      bestScore = score;
+      best.heading = wrapAngle(wanted + turn);
+    }
+  }
+  best.anywhere = std::isfinite(bestScore);
+  return best;
+}
+
+double roomLeft(const Vector2& start, std::span<const Obstacle> obstacles) {
+  double left = std::numeric_limits<double>::infinity();
+  for (const Obstacle& obstacle : obstacles) left = std::min(left, (obstacle.p_F - start).norm() - kBodyRoom);
+  return left;
 }
 
 }  // namespace
@@ -44,20 +135,36 @@ double headingTo(const world::WorldState& world, const Vector2& p_F) {
   return std::atan2(way.y(), way.x());
 }
 
-motion::MotionRequest walkTo(const world::WorldState& world, const Pose2& X_FTarget, double avoidDistance) {
-  const Vector2 next = aroundOthers(world, X_FTarget.translation, avoidDistance);
-  const bool detour = next != X_FTarget.translation;
-  const double distance = (X_FTarget.translation - world.self.X_FR.translation).norm();
-  const bool faceTheWay = detour || distance > 0.7;
-  const Pose2 X_FNext(next, faceTheWay ? headingTo(world, next) : X_FTarget.rotation);
-
+motion::MotionRequest walkTo(const world::WorldState& world, const Pose2& X_FWanted, const Caution& caution) {
+  const Vector2 start = world.self.X_FR.translation;
+  const Obstacles obstacles = obstaclesFor(world, caution);
+  const Pose2 X_FTarget(outsideOfRooms(X_FWanted.translation, start, obstacles.all()), X_FWanted.rotation);
+  const double distance = (X_FTarget.translation - start).norm();
+  const bool arrived = distance < kCloseEnough;
+  const bool crowded = roomLeft(start, obstacles.all()) < 0.1;
   motion::MotionRequest request;
   request.kind = motion::MotionRequest::Kind::WalkTo;
-  request.target = world.self.X_FR.inverse() * X_FNext;
-  request.stopAtTarget = !detour;
-  // Close enough: stand instead of shuffling on the spot.
-  if (!detour && distance < 0.12 && std::abs(request.target.rotation) < 0.25)
+  if (arrived && !crowded) {
+    request.target = world.self.X_FR.inverse() * X_FTarget;
+    if (std::abs(request.target.rotation) < kFacing) request.kind = motion::MotionRequest::Kind::Stand;
+    return request;
+  }
+  const Way way = chooseWay(world, X_FTarget.translation, obstacles.all());
+  if (!way.anywhere) {
     request.kind = motion::MotionRequest::Kind::Stand;
+    return request;
+  }
+  if (way.straight) {
+    const double heading = distance > kNear ? way.heading : X_FTarget.rotation;
+    request.target = world.self.X_FR.inverse() * Pose2(X_FTarget.translation, heading);
+    return request;
+  }
+  // Around somebody: a step at a time, slowly where it is narrow. Giving way to somebody close needs no turn.
+  const double step = crowded ? kSlowStep : kDetourStep;
+  const Vector2 next = start + step * Vector2(std::cos(way.heading), std::sin(way.heading));
+  const double heading = crowded ? world.self.X_FR.rotation : way.heading;
+  request.target = world.self.X_FR.inverse() * Pose2(next, heading);
+  request.stopAtTarget = crowded;
   return request;
 }
 

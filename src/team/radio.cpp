@@ -10,20 +10,9 @@ namespace nonet::team {
 namespace {
 
 constexpr double kOldestBall = 5.0;  // s, older sightings are not worth the bits
-constexpr double kWalkSpeed = 0.5;   // m/s, for the time to the ball
-constexpr double kTurnSpeed = 1.5;   // rad/s
-constexpr double kRisingTime = 2.0;  // s
-
-double timeToBall(const world::WorldState& world) {
-  const Vector2 ball = world.ball.p_RB;
-  const double turn = std::abs(std::atan2(ball.y(), ball.x()));
-  const double rising = world::isFallen(world.body.posture) ? kRisingTime : 0.0;
-  return ball.norm() / kWalkSpeed + turn / kTurnSpeed + rising;
-}
-
 }  // namespace
 
-std::optional<InlineString<64>> Radio::update(const world::WorldState& world) {
+std::optional<InlineString<64>> Radio::update(const world::WorldState& world, const Tidings& tidings) {
   const bool before = inOwnSlot_;
   inOwnSlot_ = world.game.unum > 0 && protocol::saySlot(world.time) == world.game.unum;
   // A listener hears one team mate in two cycles: the second message of a slot would be lost.
@@ -37,8 +26,9 @@ std::optional<InlineString<64>> Radio::update(const world::WorldState& world) {
   const double age = world.time - world.ball.lastSeen;
   if (world.self.localized && world.ball.known && age < kOldestBall) {
     message.ball = {world.ball.p_FB.head<2>(), world.ball.v_FB.head<2>(), std::max(age, 0.0)};
-    message.timeToBall = timeToBall(world);
+    message.timeToBall = tidings.timeToBall;
   }
+  message.vote = tidings.vote;
   return protocol::encodeSay(message, world.game.team);
 }
 

@@ -25,7 +25,7 @@ Assignment RoleAssigner::assign(std::span<const Vector2> players, std::span<cons
       const double distance = (players[player] - positions[count - 1]).norm();
       const Cost& rest = best_[set & ~(1U << player)];
       Cost candidate;
-      candidate.lastPlayer = static_cast<std::int8_t>(player);
+      candidate.lastPlayer = player;
       const auto* restEnd = rest.distances.begin() + (count - 1);
       const auto* place =
           std::find_if(rest.distances.begin(), restEnd, [&](double d) { return d < distance; });

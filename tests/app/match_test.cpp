@@ -103,7 +103,7 @@ TEST_F(MatchCommand, SameSeedGivesIdenticalLogsAndTheSameMatchInOneProcess) {
                                            "--kick-off-wait", "1",         "--seed", "11"};
   for (const std::string name : {"a", "b", "here"}) {
     std::vector<std::string> arguments = common;
-    arguments.insert(arguments.end(), {"--json", file(name + ".json")});
+    arguments.insert(arguments.end(), {"--json", file(name + ".json"), "--monitor-log", file(name + ".mon")});
     if (name == "here") {
       arguments.push_back("--in-process");
     } else {
@@ -115,6 +115,8 @@ TEST_F(MatchCommand, SameSeedGivesIdenticalLogsAndTheSameMatchInOneProcess) {
   EXPECT_TRUE(json("a.json")["flawless"]);
   EXPECT_EQ(json("a.json")["signature"], json("b.json")["signature"]);
   EXPECT_EQ(json("a.json")["signature"], json("here.json")["signature"]);
+  EXPECT_GT(bytes("a.mon").size(), 10000U);
+  EXPECT_EQ(bytes("a.mon"), bytes("here.mon"));
   int logs = 0;
   for (const auto& entry : fs::directory_iterator(file("a"))) {
     const std::string name = entry.path().filename().string();
@@ -179,6 +181,16 @@ TEST_F(MatchCommand, PlaysOnWhenAgentsAreHarmed) {
   }
   EXPECT_NE(program.output().find("Nonet_2 has ended: killed by signal 9"), std::string::npos)
       << program.output();
+}
+
+TEST_F(MatchCommand, OneTeamMayPlayAlone) {
+  Program program({"match", "--in-process", "--alone", "--players", "2", "--minutes", "0.05",
+                   "--kick-off-wait", "0.5", "--json", file("alone.json")},
+                  file("alone.txt"));
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  const auto result = json("alone.json");
+  EXPECT_TRUE(result["flawless"]);
+  EXPECT_EQ(result["players"].size(), 2U);
 }
 
 TEST_F(MatchCommand, PlayWithoutServerEndsWithTwo) {

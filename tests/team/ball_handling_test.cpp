@@ -19,7 +19,6 @@ struct Outcome {
 
 Outcome approach(const Pose2& start, const Vector2& ball, const Vector2& target) {
   BallHandlingParameters parameters;
-  parameters.kick = false;
   world::WorldState world;
   world.self.X_FR = start;
   world.self.localized = true;
@@ -27,7 +26,7 @@ Outcome approach(const Pose2& start, const Vector2& ball, const Vector2& target)
   world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
   for (int cycle = 0; cycle < 2000; ++cycle) {
     world.ball.p_RB = world.self.X_FR.inverse() * ball;
-    const motion::MotionRequest request = handleBall(world, target, parameters);
+    const motion::MotionRequest request = handleBall(world, target, parameters, KickUse::Never);
     const double distance = request.target.translation.norm();
     const double step = std::min(0.01, distance);  // 0.5 m/s
     const Vector2 move =

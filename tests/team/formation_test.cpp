@@ -37,8 +37,40 @@ TEST(Formation, BacksStandBetweenTheirGoalAndTheBall) {
       for (const Role back : {Role::BackLeft, Role::BackRight}) {
         const Vector2 place = formation.positions[static_cast<int>(back)];
         const Vector2 along = (ball - goal).normalized();
+        // With the ball in the own penalty area a third field player there would be sent out again.
+        if (back == Role::BackRight && x < -13.2 && std::abs(y) < 3.0) continue;
         EXPECT_LT((place - goal).dot(along), (ball - goal).norm());
       }
+    }
+  }
+}
+
+// Illegal defence (server facts 4.10): goalie, the one on the ball and one back are the three that may be
+// there.
+TEST(Formation, KeepsTheOtherPlayersOutOfTheOwnPenaltyArea) {
+  const world::FieldGeometry field;
+  for (double x = -14.5; x <= -5.0; x += 0.5) {
+    for (double y = -9.0; y <= 9.0; y += 0.5) {
+      const Formation formation = formationFor({x, y}, kMaxAssigned, field, {});
+      for (int i = 1; i < formation.count; ++i) {
+        if (static_cast<Role>(i) == Role::BackLeft) continue;
+        const Vector2 place = formation.positions[i];
+        EXPECT_FALSE(place.x() < -13.2 && std::abs(place.y()) < 3.0)
+            << i << " for a ball at " << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(Formation, LeavesRoomBetweenThePlacesAlsoNearLinesAndGoals) {
+  const world::FieldGeometry field;
+  for (double x = -14.5; x <= 14.5; x += 0.5) {
+    for (double y = -9.5; y <= 9.5; y += 0.5) {
+      const Formation formation = formationFor({x, y}, 8, field, {});
+      for (int i = 0; i < formation.count; ++i)
+        for (int j = 0; j < i; ++j)
+          EXPECT_GT((formation.positions[i] - formation.positions[j]).norm(), 0.7)
+              << i << " and " << j << " for a ball at " << x << " " << y;
     }
   }
 }

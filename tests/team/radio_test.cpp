@@ -34,7 +34,7 @@ TEST(Radio, EveryPlayerIsHeardOncePerRoundAndNobodyCollides) {
       world::WorldState world = stateOf(unum);
       world.time = 100.0 + 0.02 * cycle;
       world.ball.lastSeen = world.time - 0.06;
-      const auto say = radios[unum].update(world);
+      const auto say = radios[unum].update(world, {});
       if (!say) continue;
       ++speakers;
       ++spoken[unum];
@@ -60,7 +60,7 @@ TEST(Radio, SaysNothingOfABallThatIsNotKnown) {
   world.ball.known = false;
   for (int cycle = 0; cycle < 30; ++cycle) {
     world.time = 7.0 + 0.02 * cycle;
-    const auto say = radio.update(world);
+    const auto say = radio.update(world, {2.0, std::nullopt});
     if (!say) continue;
     const auto heard = protocol::decodeSay(say->view(), "Nonet");
     ASSERT_TRUE(heard.has_value());

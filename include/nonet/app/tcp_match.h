@@ -15,7 +15,6 @@ struct TcpMatchOptions {
   std::uint16_t monitorPort = 0;
   double answerTimeout = 10.0;  // s, lock-step
   std::string logs;             // folder for one log per agent; empty: none
-  std::string monitorLog;       // file; empty: none
 };
 
 /// Plays to the end, or to SIGINT or SIGTERM. Throws std::runtime_error if the match cannot begin.

@@ -20,7 +20,7 @@ namespace nonet::lab {
 
 struct TeamChoice {
   std::string name;
-  int players = 9;  // numbers 1 to players
+  int players = 9;  // numbers 1 to players; 0: the team stays away
   std::vector<std::string> parameterFiles;
 };
 
@@ -31,7 +31,11 @@ struct MatchChoice {
   double minutes = 10.0;   // of game time in all, two halves
   double kickOffWait = 5;  // s of simulated time before each half, to take one's place
   sim::Settings settings;
+  std::string monitorLog;  // file for the monitor stream, none if empty
 };
+
+/// Who plays, for people.
+std::string matchTitle(const MatchChoice& choice);
 
 /// The settings of a match as chosen: half time, automatic kick-off, names of the teams.
 sim::Settings matchSettings(const MatchChoice& choice);

@@ -18,6 +18,7 @@ struct FormationParameters {
   double secondBackFromGoal = 5.5;
   double backAside = 0.7;
   double touchLineMargin = 0.7;
+  double apart = 1.0;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -49,6 +50,8 @@ struct FormationParameters {
           self.backAside);
     visit({"touchLineMargin", Unit::Metre, {0, 3}, fixed, "Positions stay this far inside the field"},
           self.touchLineMargin);
+    visit({"apart", Unit::Metre, {0, 3}, fixed, "Positions are at least this far from each other"},
+          self.apart);
   }
 };
 
@@ -65,6 +68,9 @@ struct BallHandlingParameters {
   double kickAsideTolerance = 0.03;
   double kickAngle = 0.3;
   double kickOpponentDistance = 1.0;
+  double kickRange = 3.0;
+  double handleDistance = 0.9;
+  double waitBehind = 0.35;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -112,6 +118,16 @@ struct BallHandlingParameters {
            fixed,
            "Kick only when no opponent is nearer to the ball"},
           self.kickOpponentDistance);
+    visit({"kickRange", Unit::Metre, {0, 30}, search(1, 8), "Shots: the goal is at most this far away"},
+          self.kickRange);
+    visit({"handleDistance",
+           Unit::Metre,
+           {0.3, 3},
+           search(0.5, 1.5),
+           "Nearer to the ball others are not walked around any more"},
+          self.handleDistance);
+    visit({"waitBehind", Unit::Metre, {0.1, 2}, fixed, "Set piece: the taker waits this far behind the ball"},
+          self.waitBehind);
   }
 };
 
@@ -119,7 +135,9 @@ struct GoalieParameters {
   double outOfGoal = 0.6;
   double attackDistance = 2.0;
   double diveTime = 1.2;
-  double diveReach = 0.25;
+  double diveReach = 0.2;
+  double sideStepSpeed = 0.2;
+  double diveFarthest = 0.9;
   bool dive = true;
 
   template <class Self, class Visitor>
@@ -137,7 +155,29 @@ struct GoalieParameters {
           self.diveTime);
     visit({"diveReach", Unit::Metre, {0, 2}, search(0.1, 0.5), "A ball passing farther aside needs a dive"},
           self.diveReach);
+    visit({"sideStepSpeed", Unit::MetrePerSecond, {0, 2}, search(0, 0.6), "What a step aside adds to it"},
+          self.sideStepSpeed);
+    visit({"diveFarthest", Unit::Metre, {0, 3}, search(0.5, 1.2), "A ball passing farther is out of reach"},
+          self.diveFarthest);
     visit({"dive", Unit::None, {0, 1}, fixed, "Whether to dive at all"}, self.dive);
+  }
+};
+
+/// How fast players are, for comparing their ways to the ball.
+struct PaceParameters {
+  double walkSpeed = 0.7;
+  double turnSpeed = 1.5;
+  double risingTime = 3.0;
+  double wayAround = 0.8;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"walkSpeed", Unit::MetrePerSecond, {0.05, 5}, fixed, "Of a player on its way"}, self.walkSpeed);
+    visit({"turnSpeed", Unit::RadianPerSecond, {0.1, 10}, fixed, "Of a player that turns"}, self.turnSpeed);
+    visit({"risingTime", Unit::Second, {0, 10}, fixed, "From lying to walking"}, self.risingTime);
+    visit({"wayAround", Unit::Metre, {0, 5}, fixed, "Longer way for one on the wrong side of the ball"},
+          self.wayAround);
   }
 };
 
@@ -145,8 +185,12 @@ struct TeamParameters {
   FormationParameters formation;
   BallHandlingParameters ball;
   GoalieParameters goalie;
-  double avoidDistance = 0.8;
+  PaceParameters pace;
+  double avoidDistance = 0.7;
+  double onBallRoom = 1.2;
+  double keepBallTime = 1.0;
   double clearOfOpponentKick = 2.3;
+  double waitForReceiver = 8.0;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -154,18 +198,29 @@ struct TeamParameters {
     visit.group("formation", self.formation);
     visit.group("ball", self.ball);
     visit.group("goalie", self.goalie);
-    visit({"avoidDistance",
-           Unit::Metre,
-           {0, 5},
-           search(0.4, 1.5),
-           "Goes around robots that are nearer to the way"},
+    visit.group("pace", self.pace);
+    visit({"avoidDistance", Unit::Metre, {0, 5}, search(0.4, 1.5), "Room left to other robots on the way"},
           self.avoidDistance);
+    visit({"onBallRoom", Unit::Metre, {0, 5}, search(0.7, 2), "Room left to the team mate on the ball"},
+          self.onBallRoom);
+    visit({"keepBallTime",
+           Unit::Second,
+           {0, 10},
+           search(0, 3),
+           "Another player must be sooner at the ball by this to take it over"},
+          self.keepBallTime);
     visit({"clearOfOpponentKick",
            Unit::Metre,
            {0, 10},
            fixed,
            "Distance from the ball while the opponent takes a kick"},
           self.clearOfOpponentKick);
+    visit({"waitForReceiver",
+           Unit::Second,
+           {0, 15},
+           fixed,
+           "Own set piece: longest wait for the receiver before the ball is touched"},
+          self.waitForReceiver);
   }
 };
 

@@ -4,14 +4,21 @@
 #include <optional>
 
 #include "nonet/math/inline_string.h"
+#include "nonet/protocol/say_codec.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::team {
 
+/// What a player tells beside what it knows of itself and the ball.
+struct Tidings {
+  std::optional<double> timeToBall;  // s; empty: it will not play the ball
+  std::optional<protocol::RoleVote> vote;
+};
+
 class Radio {
  public:
   /// A report once in each of the robot's own time slots (protocol::saySlot), when it has something to tell.
-  std::optional<InlineString<64>> update(const world::WorldState& world);
+  std::optional<InlineString<64>> update(const world::WorldState& world, const Tidings& tidings);
 
  private:
   bool inOwnSlot_ = false;

@@ -30,7 +30,7 @@ class RoleAssigner {
   // Distances of the players of a set to the first |set| positions, longest first.
   struct Cost {
     std::array<double, kMaxAssigned> distances{};
-    std::int8_t lastPlayer = -1;  // who got the last of these positions
+    int lastPlayer = -1;  // who got the last of these positions
   };
   std::vector<Cost> best_;  // indexed by the bit set of players
 };

@@ -1,0 +1,36 @@
+// How soon a robot could play the ball: the measure by which the team decides who goes to it.
+#pragma once
+
+#include "nonet/math/pose2.h"
+#include "nonet/team/parameters.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::team {
+
+/// Where a robot is and how it stands, in the own field frame.
+struct Runner {
+  Pose2 X_FP;
+  bool headingKnown = false;
+  bool fallen = false;
+};
+
+/// Where the ball will be: rolling freely, or carried on by an opponent that dribbles it. Own field frame.
+class BallForecast {
+ public:
+  explicit BallForecast(const world::WorldState& world);
+  /// After `seconds`, if none of us touches it, m.
+  Vector2 at(double seconds) const;
+  bool carried() const { return carried_; }
+
+ private:
+  Vector2 p_FB_ = Vector2::Zero();
+  Vector2 v_FB_ = Vector2::Zero();
+  bool carried_ = false;
+};
+
+/// Seconds until the runner can push the ball towards p_FTarget: rising, turning, the way to where the ball
+/// will be then, and the way around it for a runner on the wrong side.
+double timeToBall(const Runner& runner, const BallForecast& ball, const Vector2& p_FTarget,
+                  const PaceParameters& pace);
+
+}  // namespace nonet::team

@@ -1,0 +1,44 @@
+// Who plays which role. Every player works out a whole assignment from its own view and tells it with its
+// radio message; what most of the last messages say is what everybody does (2011 champion's paper, section 6:
+// first formation, then the mapping f_v, then coordination by votes). So one wrong view of the world changes
+// nothing, and two players do not both go to the ball.
+#pragma once
+
+#include <optional>
+
+#include "nonet/protocol/say_codec.h"
+#include "nonet/team/formation.h"
+#include "nonet/team/parameters.h"
+#include "nonet/team/play_time.h"
+#include "nonet/team/role_assignment.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::team {
+
+class RoleVoting {
+ public:
+  /// `banned`: number of the team mate that must leave the ball to others, 0 for none. `positions` are those
+  /// of the roles now, `p_FTarget` is where the ball should go.
+  void update(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget,
+              int banned, const TeamParameters& parameters);
+
+  /// The own role as agreed; a field player's (number 2 to 11).
+  Role role() const { return role_; }
+  /// Number of the field player on the ball as agreed, 0 if there was no vote yet.
+  int onBall() const { return onBall_; }
+  /// For the own next message: role of players 2 to 11; empty without a view of the field.
+  const std::optional<protocol::RoleVote>& vote() const { return vote_; }
+
+ private:
+  void vote(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget, int banned,
+            const TeamParameters& parameters);
+  void count(const world::WorldState& world, int banned);
+
+  RoleAssigner assigner_;
+  std::optional<protocol::RoleVote> vote_;
+  bool inOwnSlot_ = false;
+  Role role_ = Role::Stopper;
+  int onBall_ = 0;
+};
+
+}  // namespace nonet::team

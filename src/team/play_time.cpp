@@ -1,0 +1,61 @@
+#include "nonet/team/play_time.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nonet/world/ball_law.h"
+
+namespace nonet::team {
+
+namespace {
+
+constexpr double kLongestRoll = 6.0;    // s that a rolling ball is followed
+constexpr double kCarryDistance = 0.8;  // m between a dribbler and its ball
+constexpr double kCarrySpeed = 0.15;    // m/s, slower ones hold it rather than carry it
+constexpr int kMeetings = 5;            // repetitions until place and time of the meeting agree
+
+double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_FTarget,
+                   const PaceParameters& pace) {
+  const Vector2 way = p_FB - runner.X_FP.translation;
+  const Vector2 onward = p_FTarget - p_FB;
+  const double bearing = std::atan2(way.y(), way.x());
+  // Nothing to walk around for a runner behind the ball, most for one that comes from where it should go.
+  const double wrongSide = 0.5 * (1.0 - std::cos(bearing - std::atan2(onward.y(), onward.x())));
+  const double turn =
+      runner.headingKnown ? std::abs(angleDifference(bearing, runner.X_FP.rotation)) : 0.5 * kPi;
+  return (way.norm() + wrongSide * pace.wayAround) / pace.walkSpeed + turn / pace.turnSpeed +
+         (runner.fallen ? pace.risingTime : 0.0);
+}
+
+}  // namespace
+
+BallForecast::BallForecast(const world::WorldState& world)
+    : p_FB_(world.ball.p_FB.head<2>()), v_FB_(world.ball.v_FB.head<2>()) {
+  double nearest = kCarryDistance;
+  for (const world::PlayerState& opponent : world.opponents) {
+    if (!opponent.known || opponent.fallen) continue;
+    const Vector2 offset = p_FB_ - opponent.X_FP.translation;
+    const double speed = opponent.v_FP.norm();
+    // It dribbles if it walks after the ball; a ball that rolls away faster than that is lost to it.
+    const bool follows = offset.dot(opponent.v_FP) > 0.7 * offset.norm() * speed;
+    if (offset.norm() > nearest || speed < kCarrySpeed || !follows) continue;
+    nearest = offset.norm();
+    carried_ = true;
+    v_FB_ = opponent.v_FP;
+  }
+}
+
+Vector2 BallForecast::at(double seconds) const {
+  const double time = std::min(seconds, kLongestRoll);
+  const double decay = world::kRollDecay;
+  return p_FB_ + (carried_ ? time : (1.0 - std::exp(-decay * time)) / decay) * v_FB_;
+}
+
+double timeToBall(const Runner& runner, const BallForecast& ball, const Vector2& p_FTarget,
+                  const PaceParameters& pace) {
+  double time = 0.0;
+  for (int i = 0; i < kMeetings; ++i) time = timeToPlace(runner, ball.at(time), p_FTarget, pace);
+  return time;
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,131 @@
+#include "nonet/team/role_voting.h"
+
+#include <algorithm>
+
+namespace nonet::team {
+
+namespace {
+
+constexpr double kVoteAge = 1.0;         // s: each player speaks every 0.44 s, one message may get lost
+constexpr double kBlindPenalty = 4.0;    // s for a team mate that says nothing of playing the ball
+constexpr double kBannedPenalty = 60.0;  // s
+constexpr int kFirstField = 2;           // number 1 is the goalie, which has no vote to win
+
+const world::PlayerState& mate(const world::WorldState& world, int unum) {
+  return world.teammates[static_cast<std::size_t>(unum)];
+}
+
+// The field players that are there, in the order of their numbers.
+struct Squad {
+  std::array<Vector2, kMaxAssigned> places{};
+  std::array<double, kMaxAssigned> times{};  // s to the ball
+  std::array<int, kMaxAssigned> unums{};
+  std::size_t count = 0;
+};
+
+int playerOnBall(const protocol::RoleVote& vote) {
+  const auto* found = std::find(vote.begin(), vote.end(), static_cast<std::uint8_t>(Role::OnBall));
+  return static_cast<int>(found - vote.begin()) + kFirstField;
+}
+
+}  // namespace
+
+void RoleVoting::update(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget,
+                        int banned, const TeamParameters& parameters) {
+  // A vote is cast when it is one's turn to speak, so that everybody counts the same votes.
+  const bool inOwnSlot = protocol::saySlot(world.time) == world.game.unum;
+  if (!world.self.localized || !world.ball.known) {
+    vote_.reset();
+  } else if (inOwnSlot && !inOwnSlot_) {
+    vote(world, formation, p_FTarget, banned, parameters);
+  }
+  inOwnSlot_ = inOwnSlot;
+  count(world, banned);
+}
+
+void RoleVoting::vote(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget,
+                      int banned, const TeamParameters& parameters) {
+  const BallForecast forecast(world);
+  Squad squad;
+  for (int unum = kFirstField; unum <= world::kTeamSize; ++unum) {
+    const world::PlayerState& player = mate(world, unum);
+    if (!player.known) continue;
+    const std::size_t i = squad.count++;
+    squad.unums[i] = unum;
+    squad.places[i] = player.X_FP.translation;
+    squad.times[i] =
+        timeToBall({player.X_FP, player.headingKnown, player.fallen}, forecast, p_FTarget, parameters.pace);
+    const world::RadioReport& report = world.radio[static_cast<std::size_t>(unum)];
+    const bool silent = world.time - report.time < kVoteAge && !report.message.timeToBall;
+    if (silent) squad.times[i] += kBlindPenalty;
+    if (unum == banned) squad.times[i] += kBannedPenalty;
+    if (unum == onBall_) squad.times[i] -= parameters.keepBallTime;
+  }
+  if (squad.count == 0) return;
+
+  // The player soonest at the ball takes it; the others share the rest so that nobody has far to go.
+  const auto* soonest = std::min_element(squad.times.begin(), squad.times.begin() + squad.count);
+  const auto onBall = static_cast<std::size_t>(soonest - squad.times.begin());
+  protocol::RoleVote vote;
+  vote.fill(protocol::kVoteSize);
+  std::array<Vector2, kMaxAssigned> places{};
+  std::array<std::size_t, kMaxAssigned> index{};
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < squad.count; ++i) {
+    index[others] = static_cast<std::size_t>(squad.unums[i] - kFirstField);
+    if (i == onBall)
+      vote[index[others]] = static_cast<std::uint8_t>(Role::OnBall);
+    else
+      places[others++] = squad.places[i];
+  }
+  const Assignment assignment =
+      assigner_.assign({places.data(), others}, {formation.positions.data() + 1, others});
+  for (std::size_t i = 0; i < others; ++i) vote[index[i]] = static_cast<std::uint8_t>(assignment[i] + 1);
+  // Whoever is not there gets what is left: a vote is a whole permutation.
+  auto next = static_cast<std::uint8_t>(squad.count);
+  for (std::uint8_t& role : vote)
+    if (role == protocol::kVoteSize) role = next++;
+  vote_ = vote;
+}
+
+void RoleVoting::count(const world::WorldState& world, int banned) {
+  std::array<const protocol::RoleVote*, world::kTeamSize> votes{};
+  std::size_t number = 0;
+  for (int unum = 1; unum <= world::kTeamSize; ++unum) {
+    const world::RadioReport& report = world.radio[static_cast<std::size_t>(unum)];
+    const bool own = unum == world.game.unum;
+    const bool heard = !own && world.time - report.time < kVoteAge && report.message.vote;
+    const protocol::RoleVote* vote = nullptr;
+    if (own && vote_) vote = &*vote_;
+    if (heard) vote = &*report.message.vote;
+    // Votes from before a set piece was taken do not know of the ban.
+    if (vote != nullptr && (banned == 0 || playerOnBall(*vote) != banned)) votes[number++] = vote;
+  }
+  if (number == 0) return;
+
+  // First the player on the ball, then the most common of the votes that agree on that; the earlier speaker
+  // wins a draw, but whoever is on the ball already stays.
+  const int before = onBall_;
+  int best = -1;
+  for (std::size_t i = 0; i < number; ++i) {
+    const int player = playerOnBall(*votes[i]);
+    int supporters = 0;
+    for (std::size_t j = 0; j < number; ++j) supporters += playerOnBall(*votes[j]) == player ? 2 : 0;
+    if (player == before) ++supporters;
+    if (supporters > best) onBall_ = player;
+    best = std::max(best, supporters);
+  }
+  const protocol::RoleVote* winner = nullptr;
+  long most = 0;
+  for (std::size_t i = 0; i < number; ++i) {
+    if (playerOnBall(*votes[i]) != onBall_) continue;
+    const long same = std::count_if(votes.begin(), votes.begin() + number,
+                                    [&](const auto* vote) { return *vote == *votes[i]; });
+    if (same > most) winner = votes[i];
+    most = std::max(most, same);
+  }
+  const int me = world.game.unum - kFirstField;
+  if (winner != nullptr && me >= 0) role_ = static_cast<Role>((*winner)[static_cast<std::size_t>(me)]);
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,151 @@
+// A team of points that hear each other, each with its own noisy view: whatever they believe, they must agree
+// on one player on the ball, keep it, and hand it over when a ban or another player's lead says so.
+#include "nonet/team/role_voting.h"
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "nonet/math/random.h"
+
+namespace nonet::team {
+namespace {
+
+constexpr int kFirst = 2;
+constexpr int kLast = 9;
+
+class Team {
+ public:
+  explicit Team(std::uint64_t seed) : random_(seed) {
+    for (int unum = kFirst; unum <= kLast; ++unum) {
+      voting_.push_back(std::make_unique<RoleVoting>());
+      worlds_.emplace_back();
+      places_.emplace_back(random_.uniform(-12, 12), random_.uniform(-8, 8));
+    }
+    noise_.resize(worlds_.size() * 12);
+    for (Vector2& n : noise_) n = 0.2 * Vector2(random_.normal(), random_.normal());
+  }
+
+  void cycle() {
+    time_ += 0.02;
+    std::vector<std::pair<int, protocol::SayMessage>> said;
+    for (std::size_t i = 0; i < worlds_.size(); ++i) {
+      world::WorldState& world = worlds_[i];
+      look(i, world);
+      const Vector2 seen = world.ball.p_FB.head<2>();
+      const Formation formation = formationFor(seen, kMaxAssigned, world.field, {});
+      voting_[i]->update(world, formation, Vector2(15, 0), banned, {});
+      if (protocol::saySlot(time_) != world.game.unum) continue;
+      protocol::SayMessage message;
+      message.unum = world.game.unum;
+      message.timeToBall = 1.0;
+      message.vote = voting_[i]->vote();
+      said.emplace_back(message.unum, message);
+    }
+    for (const auto& [unum, message] : said)
+      for (world::WorldState& world : worlds_)
+        if (world.game.unum != unum) world.radio[static_cast<std::size_t>(unum)] = {time_, message};
+  }
+  void run(double seconds) {
+    for (double end = time_ + seconds; time_ < end;) cycle();
+  }
+
+  /// The player that everybody believes to be on the ball; 0 if they disagree.
+  int agreedOnBall() const {
+    std::set<int> players;
+    for (const auto& voting : voting_) players.insert(voting->onBall());
+    return players.size() == 1 ? *players.begin() : 0;
+  }
+  std::multiset<Role> roles() const {
+    std::multiset<Role> roles;
+    for (const auto& voting : voting_) roles.insert(voting->role());
+    return roles;
+  }
+  Vector2& place(int unum) { return places_[static_cast<std::size_t>(unum - kFirst)]; }
+
+  Vector2 ball = Vector2(1.0, 1.0);
+  int banned = 0;
+
+ private:
+  void look(std::size_t i, world::WorldState& world) {
+    world.time = time_;
+    world.game.unum = static_cast<int>(i) + kFirst;
+    world.self.localized = true;
+    world.self.X_FR = Pose2(places_[i], 0.0);
+    world.ball.known = true;
+    world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.04);
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      world::PlayerState& mate = world.teammates[k + kFirst];
+      mate.known = mate.headingKnown = true;
+      const Vector2 error = k == i ? Vector2::Zero() : noise_[i * 12 + k];
+      mate.X_FP = Pose2(places_[k] + error, 0.0);
+    }
+  }
+
+  Random random_;
+  double time_ = 10.0;
+  std::vector<std::unique_ptr<RoleVoting>> voting_;
+  std::vector<world::WorldState> worlds_;
+  std::vector<Vector2> places_;
+  std::vector<Vector2> noise_;  // of each observer about each player
+};
+
+TEST(RoleVoting, EverybodyAgreesWithinARoundThoughViewsDiffer) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    Team team(seed);
+    team.run(1.5);
+    EXPECT_NE(team.agreedOnBall(), 0) << "seed " << seed;
+    // All hear the same votes, so all follow the same one: every role once.
+    const std::multiset<Role> roles = team.roles();
+    EXPECT_EQ(std::set<Role>(roles.begin(), roles.end()).size(), roles.size()) << "seed " << seed;
+  }
+}
+
+TEST(RoleVoting, KeepsThePlayerOnTheBallAgainstSmallDifferences) {
+  Team team(3);
+  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.place(4) = team.ball + Vector2(-1.0, 0.3);
+  team.place(5) = team.ball + Vector2(-1.1, -0.3);
+  team.run(1.5);
+  const int first = team.agreedOnBall();
+  ASSERT_TRUE(first == 4 || first == 5);
+  const int other = 9 - first;
+  // The other one is now a little nearer, again and again.
+  for (int k = 0; k < 10; ++k) {
+    team.place(other) = team.ball + Vector2(-0.9 + 0.02 * k, 0.0);
+    team.run(0.3);
+    EXPECT_EQ(team.agreedOnBall(), first);
+  }
+  // Far nearer.
+  team.place(first) = team.ball + Vector2(-4.0, 0.0);
+  team.run(1.5);
+  EXPECT_EQ(team.agreedOnBall(), other);
+}
+
+TEST(RoleVoting, TheBannedPlayerHandsOver) {
+  Team team(4);
+  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-8.0, unum);
+  team.place(9) = team.ball + Vector2(-0.2, 0.0);
+  team.place(6) = team.ball + Vector2(-1.5, 0.0);
+  team.run(1.5);
+  ASSERT_EQ(team.agreedOnBall(), 9);
+  team.banned = 9;
+  team.run(0.6);
+  EXPECT_EQ(team.agreedOnBall(), 6);
+}
+
+TEST(RoleVoting, WithoutAViewOfTheFieldThereIsNoVote) {
+  RoleVoting voting;
+  world::WorldState world;
+  world.game.unum = 4;
+  for (int cycle = 0; cycle < 50; ++cycle) {
+    world.time = 0.02 * cycle;
+    voting.update(world, {}, Vector2(15, 0), 0, {});
+    EXPECT_FALSE(voting.vote().has_value());
+  }
+}
+
+}  // namespace
+}  // namespace nonet::team

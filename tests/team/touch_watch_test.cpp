@@ -1,0 +1,84 @@
+// The double touch rule as the server applies it (facts 4.5), told as scenes.
+#include "nonet/team/touch_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace nonet::team {
+namespace {
+
+class Scene : public testing::Test {
+ protected:
+  Scene() {
+    world.game.unum = 9;
+    world.ball.known = true;
+    ball(0.0, 0.0);
+    place(world.teammates[9], -0.2, 0.0);
+    place(world.teammates[6], -1.0, -1.0);
+    place(world.opponents[8], 2.5, 0.0);
+  }
+  static void place(world::PlayerState& player, double x, double y) {
+    player.known = true;
+    player.X_FP = Pose2(x, y, 0.0);
+  }
+  void ball(double x, double y) { world.ball.p_FB = Vector3(x, y, 0.04); }
+  void play(world::Phase phase, double seconds) {
+    world.game.phase = phase;
+    for (double end = world.time + seconds; world.time < end; world.time += 0.02) watch.update(world);
+  }
+
+  world::WorldState world;
+  TouchWatch watch;
+};
+
+TEST_F(Scene, TheTakerOfAnOwnSetPieceIsBannedUntilAnotherTouches) {
+  for (const world::Phase phase : {world::Phase::OwnKickOff, world::Phase::OwnKickIn, world::Phase::OwnCorner,
+                                   world::Phase::OwnGoalKick, world::Phase::OwnFreeKick}) {
+    ball(0.0, 0.0);
+    play(phase, 2.0);
+    EXPECT_EQ(watch.banned(), 0);
+    play(world::Phase::PlayOn, 0.1);
+    EXPECT_EQ(watch.banned(), 9);
+    ball(-0.4, -0.7);
+    play(world::Phase::PlayOn, 1.0);
+    EXPECT_EQ(watch.banned(), 9) << "nobody is at the ball yet";
+    ball(-0.9, -0.9);
+    play(world::Phase::PlayOn, 0.1);
+    EXPECT_EQ(watch.banned(), 0) << "number 6 has it";
+  }
+}
+
+TEST_F(Scene, AnOpponentThatTouchesEndsTheBan) {
+  play(world::Phase::OwnFreeKick, 3.0);
+  play(world::Phase::PlayOn, 0.2);
+  ASSERT_EQ(watch.banned(), 9);
+  ball(2.4, 0.1);
+  play(world::Phase::PlayOn, 0.1);
+  EXPECT_EQ(watch.banned(), 0);
+}
+
+TEST_F(Scene, AnOpponentThatTookThePieceBansNobody) {
+  play(world::Phase::OwnKickIn, 3.0);
+  ball(2.4, 0.0);
+  play(world::Phase::PlayOn, 0.2);
+  EXPECT_EQ(watch.banned(), 0);
+}
+
+TEST_F(Scene, NobodyIsBannedAfterADropBallOrTheOpponentsKick) {
+  play(world::Phase::OwnKickOff, 15.0);
+  play(world::Phase::PlayOn, 0.2);
+  EXPECT_EQ(watch.banned(), 0);
+  play(world::Phase::OpponentKickOff, 3.0);
+  play(world::Phase::PlayOn, 0.2);
+  EXPECT_EQ(watch.banned(), 0);
+}
+
+TEST_F(Scene, TheNextStopOfTheGameEndsTheBan) {
+  play(world::Phase::OwnKickOff, 2.0);
+  play(world::Phase::PlayOn, 0.2);
+  ASSERT_EQ(watch.banned(), 9);
+  play(world::Phase::OpponentKickIn, 0.1);
+  EXPECT_EQ(watch.banned(), 0);
+}
+
+}  // namespace
+}  // namespace nonet::team
