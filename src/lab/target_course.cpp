@@ -20,6 +20,7 @@ constexpr double kFallCost = 5.0;
 constexpr double kFarthest = 100.0;         // m, nobody walks there
 constexpr double kReached = 0.15;           // m
 constexpr double kTurned = 0.1745;          // rad
+constexpr double kPlaced = 0.35;            // rad
 constexpr double kTurnWorth = 0.4;          // m per rad: a turn of half a circle counts as 1.26 m
 constexpr double kNoiseHold = 0.2;          // s between new noise
 constexpr double kHeadingGain = 4.0;        // 1/s, of held headings
@@ -39,6 +40,9 @@ CourseLeg shift(const Vector2& target, double time) {
 }
 CourseLeg chained(const Vector2& target, double time) {
   return {.kind = Kind::Walk, .target = target, .time = time, .chained = true};
+}
+CourseLeg place(const Vector2& target, double heading, double time) {
+  return {.kind = Kind::Place, .target = target, .turn = heading, .time = time};
 }
 CourseLeg turn(double angle, double time) {
   return {.kind = Kind::Turn, .turn = angle, .time = time};
@@ -139,6 +143,16 @@ CourseItem turns(Random& random, double side) {
       {turn(side * random.uniform(2.0, kPi), 2.5), turn(-side * random.uniform(1.2, kPi), 2.5), stop(0.4)}};
 }
 
+CourseItem places(Random& random, double side) {
+  CourseItem item{"places", {}};
+  for (int i = 0; i < 4; ++i) {
+    const Vector2 target = polar(random.uniform(0.4, 2.5), random.uniform(-kPi, kPi));
+    item.legs.push_back(place(target, side * random.uniform(-kPi, kPi), 1.5 + 2.0 * target.norm()));
+    if (i % 2 == 1) item.legs.push_back(stop(0.3));
+  }
+  return item;
+}
+
 // One robot on the course. After a fall a fresh one stands where the old one fell.
 class Walker {
  public:
@@ -188,9 +202,7 @@ class Walker {
       drift += (now.translation - at.translation).norm();
       at = now;
       if (trial_->down()) return fall(at, i + 1);
-      const double gap = left(leg, at, target, heading);
-      reached =
-          leg.kind == Kind::Turn ? gap < kTurned * kTurnWorth : leg.kind != Kind::Stop && gap < kReached;
+      reached = isReached(leg, at, left(leg, at, target, heading), heading);
       if (reached) used = i + 1;
     }
     result_.time += used * kCycleTime;
@@ -212,6 +224,13 @@ class Walker {
     return (target - at.translation).norm();
   }
 
+  static bool isReached(const CourseLeg& leg, const Pose2& at, double gap, double heading) {
+    if (leg.kind == Kind::Stop) return false;
+    if (leg.kind == Kind::Turn) return gap < kTurned * kTurnWorth;
+    return gap < kReached &&
+           (leg.kind != Kind::Place || std::abs(wrapAngle(heading - at.rotation)) < kPlaced);
+  }
+
   MotionRequest request(const CourseLeg& leg, const Pose2& at, const Vector2& target, double held,
                         double heading) const {
     MotionRequest request;
@@ -224,6 +243,10 @@ class Walker {
         request.kind = MotionRequest::Kind::WalkTo;
         request.target = Pose2(p_RT, std::atan2(p_RT.y(), p_RT.x()));
         request.stopAtTarget = false;
+        break;
+      case Kind::Place:
+        request.kind = MotionRequest::Kind::WalkTo;
+        request.target = Pose2(p_RT, wrapAngle(heading - at.rotation));
         break;
       case Kind::Shift:
         request.kind = MotionRequest::Kind::WalkVelocity;
@@ -270,7 +293,7 @@ std::vector<CourseItem> makeCourse(std::uint64_t seed) {
   Random random = Random(seed).fork(1);
   std::vector<CourseItem> course;
   for (const auto make : {longWalks, curve, stopAndGo, leftAndRight, noisyTarget, weave, extremeChanges,
-                          quickMoves, spiral, heldHeading, turns}) {
+                          quickMoves, spiral, heldHeading, turns, places}) {
     const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
     course.push_back(make(random, side));
   }

@@ -1,7 +1,8 @@
 // The obstacle course on which walks are learned and judged: MacAlpine et al., "Design and Optimization of an
 // Omnidirectional Humanoid Walk" (AAAI 2012), and AAMAS 2012, section 4.2. Long walks in all directions,
 // curves, quick changes, stop and go, left and right, noisy targets, weaving, extreme changes, spirals; and,
-// because a game needs them too, sidesteps and backward steps with a held heading and turns on the spot.
+// because a game needs them too, sidesteps and backward steps with a held heading, turns on the spot, and
+// places to be taken with a heading.
 //
 // Order, mirror images and sizes are drawn from the seed. Reward of a target: distance x time allowed / time
 // taken, or the distance made good when it was not reached in time; a stop costs the distance moved; a fall
@@ -20,10 +21,11 @@ struct CourseLeg {
     Walk,   // to the target, walking and turning at the same time
     Shift,  // to the target, heading held
     Turn,   // on the spot
+    Place,  // to the target, to stand there with a heading, as players do all the time
     Stop,
   } kind = Kind::Walk;
   Vector2 target = Vector2::Zero();  // m, seen from where the leg (or, chained, its item) began
-  double turn = 0.0;                 // Turn: rad
+  double turn = 0.0;                 // Turn: how far; Place: final heading, from that at the begin; rad
   double time = 1.0;                 // s, allowed
   bool chained = false;
   double noise = 0.0;  // m, standard deviation of the target as the robot is told
