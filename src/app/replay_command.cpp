@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,6 +21,7 @@ struct ReplayArguments {
   bool json = false;
   bool localization = false;
   std::string maps = "logs/maps";
+  std::vector<std::string> assignments;
 };
 
 /// "logs/3.zst" -> "FOLDER/3.zst.svg".
@@ -72,7 +75,21 @@ bool replayOne(const std::string& file, ReplayArguments& arguments, lab::Localiz
   return report.clean();
 }
 
+std::pair<std::string, double> parseAssignment(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign != std::string::npos) {
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const auto result = std::from_chars(text.data() + sign + 1, end, value);
+    if (result.ec == std::errc() && result.ptr == end) return {text.substr(0, sign), value};
+  }
+  throw std::runtime_error("--set " + text + ": give it as key=number");
+}
+
 int runReplay(ReplayArguments& arguments) {
+  for (const std::string& text : arguments.assignments) {
+    arguments.options.parameters.push_back(parseAssignment(text));
+  }
   arguments.options.dataFolder = dataFolder();
   lab::LocalizationReport all;
   int exitCode = 0;
@@ -111,6 +128,10 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
       ->add_option("--params", options.parameterFiles,
                    "Foreign logs: parameter files, overlaid in this order")
       ->check(CLI::ExistingFile);
+  command
+      ->add_option("--set", arguments->assignments,
+                   "One parameter of the agent, key=number, for example world.useLines=0")
+      ->allow_extra_args(false);
   command->footer(
       "Our own logs hold their parameters and seed: the answers must come out byte for byte as recorded.\n"
       "Exit codes: 0 all well, 1 a difference or an unknown token, 2 a file cannot be read.");

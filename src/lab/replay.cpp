@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <time.h>
 
+#include "nonet/config/parameters.h"
 #include "nonet/lab/agent_setup.h"
 #include "nonet/protocol/log_file.h"
 #include "nonet/protocol/percept_text.h"
@@ -219,9 +220,7 @@ nlohmann::ordered_json toJson(const std::optional<Quantiles>& error, double scal
   return {{"count", error->count}, {"median", error->median * scale}, {"p95", error->p95 * scale}};
 }
 
-}  // namespace
-
-agent::AgentConfig agentOfLog(const std::string& path, const ReplayOptions& options) {
+agent::AgentConfig recordedAgent(const std::string& path, const ReplayOptions& options) {
   protocol::LogReader reader(path);
   LogLine line;
   if (reader.header()) {
@@ -242,6 +241,14 @@ agent::AgentConfig agentOfLog(const std::string& path, const ReplayOptions& opti
   choice.robotType = options.robotType.value_or(identity.robotType.value_or(0));
   choice.parameterFiles = options.parameterFiles;
   return makeAgentConfig(choice, options.dataFolder);
+}
+
+}  // namespace
+
+agent::AgentConfig agentOfLog(const std::string& path, const ReplayOptions& options) {
+  agent::AgentConfig config = recordedAgent(path, options);
+  for (const auto& [key, value] : options.parameters) config::setParameter(config.parameters, key, value);
+  return config;
 }
 
 ReplayReport replay(const std::string& path, const ReplayOptions& options) {

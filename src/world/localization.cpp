@@ -33,8 +33,9 @@ constexpr double kKeptHeadingSigma = 0.01;  // rad, of a robot that was shifted 
 constexpr double kFreeSigma = 20.0;         // m
 constexpr double kFreeHeadingSigma = 2.0;   // rad
 
-constexpr double kExpectation = 1.0;  // s for which a beam is expected to show
-constexpr double kBeamHeight = 0.4;   // m, of the torso
+constexpr double kExpectation = 1.0;    // s for which a beam is expected to show
+constexpr double kContradiction = 3.0;  // mean -log likelihood of what is seen at a pose that is wrong
+constexpr double kBeamHeight = 0.4;     // m, of the torso
 
 double headingOf(const Matrix3& R) {
   return std::atan2(R(1, 0), R(0, 0));
@@ -367,7 +368,13 @@ void Localization::followFilter(const BodyState& body) {
   const Matrix3& spread = particles_.covariance();
   belief.covariance.block<2, 2>(kPositionState, kPositionState) = spread.topLeftCorner<2, 2>();
   belief.covariance(kRotationState + 2, kRotationState + 2) = spread(2, 2);
+  const double lastLandmark = lastLandmark_;
   adopt(belief, body);
+  // After a move the particles need a few frames; until then the landmarks contradict their pose.
+  const auto seen = static_cast<double>(ground_.landmarkCount + ground_.lineCount);
+  if (particles_.logLikelihood(clusters[0].X_WR, ground_, *map_) < -kContradiction * seen) {
+    lastLandmark_ = lastLandmark;
+  }
 }
 
 void Localization::expectPlaces(std::span<const Pose2> X_WR, double time) {

@@ -53,8 +53,10 @@ Matrix3 planarCovariance(const BeliefMatrix& P, const Vector3& arm, bool turned)
 
 struct WorldModel::Stages {
   Stages(const model::RobotModel& model, const WorldParameters& parameters, const protocol::TeamName& team,
-         std::uint64_t seed, const LocalizationOptions& options)
-      : body(model, parameters), game(team), localization(seed, options) {}
+         std::uint64_t seed)
+      : body(model, parameters),
+        game(team),
+        localization(seed, {parameters.useParticleFilter, parameters.usePoseFit, parameters.useLines}) {}
 
   void fillSelf();
   void followBeam();
@@ -144,8 +146,8 @@ void WorldModel::Stages::followOthers(const protocol::Percept& percept) {
 }
 
 WorldModel::WorldModel(const model::RobotModel& model, const WorldParameters& parameters,
-                       const protocol::TeamName& team, std::uint64_t seed, const LocalizationOptions& options)
-    : stages_(std::make_unique<Stages>(model, parameters, team, seed, options)) {}
+                       const protocol::TeamName& team, std::uint64_t seed)
+    : stages_(std::make_unique<Stages>(model, parameters, team, seed)) {}
 
 WorldModel::~WorldModel() = default;
 

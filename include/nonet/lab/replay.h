@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -25,6 +26,8 @@ struct ReplayOptions {
   std::optional<std::string> team;
   std::optional<int> robotType;
   std::vector<std::string> parameterFiles;
+  /// Single parameters by their full keys, set last, in our own logs too (their answers then differ).
+  std::vector<std::pair<std::string, double>> parameters;
   /// Called after each message, with the agent stepped; for measurements.
   std::function<void(const Session&)> observer;
   /// Called with each line of ground truth (JSON) that belongs to the message observed last.

@@ -10,6 +10,10 @@ struct WorldParameters {
   double fallingAngle = 0.62;
   double uprightAngle = 0.45;
   double fallPreview = 0.19;
+  // For measurements of what each part is worth.
+  bool useParticleFilter = true;
+  bool usePoseFit = true;
+  bool useLines = true;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -38,6 +42,21 @@ struct WorldParameters {
            fixed,
            "Preview of the tilt for falling: about sqrt(height of the centre of mass / gravity)"},
           self.fallPreview);
+    visit(
+        {"useParticleFilter",
+         Unit::None,
+         {0, 1},
+         fixed,
+         "Localization by the particle filter; without it by the fit alone, started from landmark geometry"},
+        self.useParticleFilter);
+    visit({"usePoseFit",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "Localization by the least-squares fit; without it by the particle filter alone"},
+          self.usePoseFit);
+    visit({"useLines", Unit::None, {0, 1}, fixed, "Localization by field lines as well as by landmarks"},
+          self.useLines);
   }
 };
 

@@ -14,7 +14,7 @@ namespace nonet::world {
 class WorldModel {
  public:
   WorldModel(const model::RobotModel& model, const WorldParameters& parameters,
-             const protocol::TeamName& team, std::uint64_t seed, const LocalizationOptions& options = {});
+             const protocol::TeamName& team, std::uint64_t seed);
   ~WorldModel();
 
   /// Absorbs one message. The reference stays valid until the next call.
