@@ -34,7 +34,9 @@ Vector2 goalTarget(const world::WorldState& world) {
   // Near the opponent's goal line but beside the goal, first bring the ball to the middle.
   if (ball.x() > goalX - 1.0 && std::abs(ball.y()) > 0.5 * world.field.goalWidth + 0.3)
     return {goalX - 1.5, 0.0};
-  const double inside = 0.5 * world.field.goalWidth - 0.4;
+  // From afar at the middle, so that a push aside on the way does not end beside the goal.
+  constexpr double kAfar = 3.0;  // m
+  const double inside = goalX - ball.x() > kAfar ? 0.2 : 0.5 * world.field.goalWidth - 0.4;
   return {goalX + 0.2, std::clamp(ball.y(), -inside, inside)};
 }
 

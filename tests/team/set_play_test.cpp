@@ -1,0 +1,43 @@
+// The plans for set pieces, for balls wherever the server can put them (server facts 4.7).
+#include "nonet/team/set_play.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace nonet::team {
+namespace {
+
+void expectPlayable(world::Phase phase, const Vector2& ball) {
+  const world::FieldGeometry field;
+  const SetPlay play = setPlayFor(phase, ball, field);
+  const Vector2 receiver = play.p_FReceiver;
+  EXPECT_LT(std::abs(receiver.x()), 0.5 * field.length);
+  EXPECT_LT(std::abs(receiver.y()), 0.5 * field.width);
+  // Near enough to be there first: the opponents are kept 2 m from the ball. Not so near that it is touched.
+  EXPECT_GT((receiver - ball).norm(), 0.6);
+  EXPECT_LT((receiver - ball).norm(), 2.0);
+  // The push goes into the field, and past the receiver's feet rather than at its back.
+  const Vector2 along = (play.p_FTarget - ball).normalized();
+  const Vector2 rest = ball + 1.3 * along;
+  EXPECT_LT(std::abs(rest.y()), 0.5 * field.width);
+  EXPECT_LT((rest - receiver).norm(), 0.6);
+  EXPECT_LE(receiver.x(), rest.x() + 1e-9);
+}
+
+TEST(SetPlay, TheReceiverStandsWhereTheBallGoes) {
+  expectPlayable(world::Phase::OwnKickOff, {0.0, 0.0});
+  for (const double side : {-1.0, 1.0}) {
+    for (double x = -14.0; x <= 14.0; x += 1.0) expectPlayable(world::Phase::OwnKickIn, {x, side * 9.958});
+    expectPlayable(world::Phase::OwnCorner, {14.958, side * 5.483});
+    expectPlayable(world::Phase::OwnGoalKick, {-14.0, 0.0});
+    for (double x = -13.0; x <= 12.0; x += 1.0) expectPlayable(world::Phase::OwnFreeKick, {x, side * 6.0});
+  }
+}
+
+TEST(SetPlay, TheKickOffPassStaysInTheOwnHalf) {
+  EXPECT_LT(setPlayFor(world::Phase::OwnKickOff, {0.0, 0.0}, {}).p_FTarget.x(), 0.0);
+}
+
+}  // namespace
+}  // namespace nonet::team
