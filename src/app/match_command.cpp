@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -14,7 +16,7 @@ namespace {
 struct MatchArguments {
   TcpMatchOptions options;
   int players = 9;
-  int threads = 1;
+  int threads = 0;
   bool inProcess = false;
   bool localization = false;
   bool alone = false;
@@ -26,8 +28,10 @@ struct MatchArguments {
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
                           lab::MatchLocalization& localization) {
   const lab::MatchChoice& match = arguments.options.match;
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = arguments.threads > 0 ? arguments.threads : cores;
   console.say(fmt::format("{}, seed {}, in one process with {} threads", lab::matchTitle(match), match.seed,
-                          arguments.threads));
+                          threads));
   lab::MatchObservers observers;
   observers.afterCycle = [&](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
     if (console.due()) console.progress(watcher.progress(simulation));
@@ -37,7 +41,7 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
   if (arguments.localization) {
     observers.afterThought = [&](const lab::Thought& thought) { localization.afterThought(thought); };
   }
-  lab::MatchResult result = lab::playInProcess(match, dataFolder(), arguments.threads, observers);
+  lab::MatchResult result = lab::playInProcess(match, dataFolder(), threads, observers);
   console.end();
   return result;
 }
@@ -65,7 +69,7 @@ int runMatch(MatchArguments& arguments) {
   file << json.dump(2) << "\n";
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
   fmt::print("result in {}\n", arguments.json);
-  return result.finished ? 0 : 1;
+  return result.finished && result.violations == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -105,6 +109,8 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--settings", arguments->settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
   command->add_option("--set", arguments->assignments, "Settings of the server, Name=Value");
+  command->add_flag("--check", match.check,
+                    "Look in every cycle whether the physics holds: finite, within stops, above the ground");
   CLI::Option* inProcess = command->add_flag("--in-process", arguments->inProcess,
                                              "Agents and world in this process, without text and sockets");
   command
@@ -113,13 +119,15 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
           "With --in-process: what all players believe of their place, the ball and each other against "
           "the simulation's truth")
       ->needs(inProcess);
-  command->add_option("--threads", arguments->threads, "With --in-process: threads for agents and physics")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "With --in-process: threads for agents and physics, 0: one per core")
       ->capture_default_str()
-      ->check(CLI::Range(1, 256));
+      ->check(CLI::Range(0, 256));
   command->footer(
       "In lock-step the same seed gives the same match, over TCP and in one process, to the last byte of the "
       "logs.\n"
-      "Exit codes: 0 played to the end, 1 not.");
+      "Exit codes: 0 played to the end, 1 not, or --check found something.");
   command->callback([arguments, &exitCode] { exitCode = runMatch(*arguments); });
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "nonet/lab/work_crew.h"
+#include "nonet/math/angle.h"
 #include "nonet/protocol/play_mode.h"
 #include "nonet/sim/monitor.h"
 #include "nonet/sim/server_lobby.h"
@@ -24,6 +25,7 @@ bool running(protocol::PlayMode mode) {
 struct InProcessPlayer {
   sim::AgentHandle handle = sim::kNoAgent;
   std::unique_ptr<agent::Agent> agent;
+  const protocol::Percept* percept = nullptr;  // of this cycle, if there is one
   protocol::Effectors answer;
   bool answered = false;
   long messages = 0;
@@ -87,6 +89,7 @@ MatchWatcher::MatchWatcher(const MatchChoice& choice) {
       result_.players.push_back(player);
     }
   }
+  if (choice.check) invariants_.emplace();
   stances_.assign(result_.players.size(), Stance::Unknown);
 }
 
@@ -100,6 +103,7 @@ PlayerRecord* MatchWatcher::find(bool rightTeam, int unum) {
 void MatchWatcher::update(const sim::Simulation& simulation) {
   const sim::MatchState& match = simulation.match();
   ++result_.cycles;
+  if (invariants_) invariants_->check(simulation);
   result_.scoreLeft = match.scoreLeft;
   result_.scoreRight = match.scoreRight;
   result_.gameTime = match.time;
@@ -127,6 +131,16 @@ void MatchWatcher::update(const sim::Simulation& simulation) {
 
 MatchResult MatchWatcher::finish(const sim::Simulation& simulation) {
   result_.signature = simulation.signature();
+  if (invariants_) {
+    const sim::InvariantExtremes& extremes = invariants_->extremes();
+    result_.violations = invariants_->violations();
+    result_.invariants = fmt::format(
+        "invariants: {} violations; farthest beyond a stop {:.2f} deg, lowest body centre {:.3f} m, fastest "
+        "body {:.1f} m/s\n",
+        invariants_->violations(), toDegrees(extremes.overshoot), extremes.lowestCentre,
+        extremes.fastestBody);
+    for (const std::string& message : invariants_->messages()) result_.invariants += message + "\n";
+  }
   return result_;
 }
 
@@ -155,19 +169,19 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
   std::optional<sim::MonitorLog> monitorLog;
   if (!choice.monitorLog.empty()) monitorLog.emplace(simulation, choice.monitorLog);
 
+  // As over TCP, the agents think about the messages that beginCycle() sent while the physics goes on.
   WorkCrew crew(threads);
-  const std::function<void(int)> think = [&](int i) {
-    InProcessPlayer& player = players[static_cast<std::size_t>(i)];
-    const protocol::Percept* percept = simulation.sense(player.handle);
-    player.answered = percept != nullptr;
-    if (percept == nullptr) return;
+  const std::function<void(int)> work = [&](int i) {
+    if (i == 0) return simulation.finishCycle();
+    InProcessPlayer& player = players[static_cast<std::size_t>(i - 1)];
+    player.answered = player.percept != nullptr;
+    if (!player.answered) return;
     ++player.messages;
-    player.answer = player.agent->step(*percept);
+    player.answer = player.agent->step(*player.percept);
   };
   const auto start = std::chrono::steady_clock::now();
   int afterEnd = 0;
   for (bool more = true; more;) {
-    crew.run(static_cast<int>(players.size()), think);
     for (const InProcessPlayer& player : players) {
       if (!player.answered) continue;
       simulation.act(player.handle, player.answer);
@@ -176,7 +190,9 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
             {player.handle, *simulation.sense(player.handle), *player.agent, player.answer});
       }
     }
-    simulation.step();
+    simulation.beginCycle();
+    for (InProcessPlayer& player : players) player.percept = simulation.sense(player.handle);
+    crew.run(static_cast<int>(players.size()) + 1, work);
     if (monitorLog) monitorLog->cycle();
     watcher.update(simulation);
     if (watcher.result().finished && ++afterEnd > kLinger) more = false;

@@ -40,6 +40,7 @@ nlohmann::ordered_json MatchResult::toJson() const {
       {"falls_right", falls(true)},
       {"timeouts", timeouts},
       {"dropped_messages", droppedMessages},
+      {"violations", violations},
       {"players", nlohmann::ordered_json::array()},
   };
   for (const PlayerRecord& player : players) {
@@ -78,7 +79,7 @@ std::string MatchResult::toText() const {
       "\nfalls {} : {}; {} agents did not play to the end, the server waited in vain {} times, slow "
       "readers lost {} messages\n",
       falls(false), falls(true), crashed, timeouts, droppedMessages);
-  return text;
+  return text + invariants;
 }
 
 }  // namespace nonet::lab

@@ -1,5 +1,7 @@
 #include "nonet/sim/world.h"
 
+#include <cmath>
+
 #include "sim/world_implementation.h"
 #include "sim/world_scene.h"
 
@@ -50,7 +52,7 @@ int World::robotType(RobotHandle robot) const {
 // Server facts 2.4. Angles are compared in degrees, as there.
 void World::setJointSpeed(RobotHandle robot, model::JointId joint, float radPerSecond) {
   JointNode* node = implementation_->robot(robot).joint(joint);
-  if (node == nullptr) return;
+  if (node == nullptr || std::isnan(radPerSecond)) return;  // an ODE that has met a NaN never recovers
   float speed = radPerSecond > 0.0F ? (radPerSecond < node->maxSpeed ? radPerSecond : node->maxSpeed)
                                     : (radPerSecond > -node->maxSpeed ? radPerSecond : -node->maxSpeed);
   if (node->frozen) speed = 0.0F;

@@ -83,7 +83,10 @@ TEST(Match, UsualTypesPassTheServersRules) {
 }
 
 TEST(Match, IsPlayedToTheEnd) {
-  const MatchResult result = playInProcess(shortMatch(1), NONET_SOURCE_DIR, 1);
+  MatchChoice choice = shortMatch(1);
+  choice.check = true;
+  const MatchResult result = playInProcess(choice, NONET_SOURCE_DIR, 1);
+  EXPECT_EQ(result.violations, 0U) << result.invariants;
   EXPECT_TRUE(result.finished);
   EXPECT_NEAR(result.gameTime, 2.0, 0.05);
   ASSERT_EQ(result.players.size(), 4U);

@@ -13,6 +13,7 @@
 
 #include "nonet/agent/agent.h"
 #include "nonet/lab/agent_setup.h"
+#include "nonet/sim/invariants.h"
 #include "nonet/sim/settings.h"
 #include "nonet/sim/simulation.h"
 
@@ -32,6 +33,7 @@ struct MatchChoice {
   double kickOffWait = 5;  // s of simulated time before each half, to take one's place
   sim::Settings settings;
   std::string monitorLog;  // file for the monitor stream, none if empty
+  bool check = false;      // watch the simulation's invariants
 };
 
 /// Who plays, for people.
@@ -71,9 +73,11 @@ struct MatchResult {
   long cycles = 0;
   double wallTime = 0.0;  // s, from the first cycle
   std::uint64_t seed = 0;
-  std::uint64_t signature = 0;  // of the simulation at the end: equal matches have equal ones
-  long timeouts = 0;            // lock-step: times that the server gave up waiting for an agent
-  long droppedMessages = 0;     // that slow readers did not get
+  std::uint64_t signature = 0;   // of the simulation at the end: equal matches have equal ones
+  long timeouts = 0;             // lock-step: times that the server gave up waiting for an agent
+  long droppedMessages = 0;      // that slow readers did not get
+  std::uint64_t violations = 0;  // of invariants, if they were watched
+  std::string invariants;        // what was watched and found, lines; empty if not
   std::vector<PlayerRecord> players;
 
   int falls(bool rightTeam) const;
@@ -105,6 +109,7 @@ class MatchWatcher {
   MatchResult result_;
   std::vector<Stance> stances_;         // beside result_.players
   std::optional<double> firstKickOff_;  // server time, s
+  std::optional<sim::Invariants> invariants_;
 };
 
 /// A message that an agent has absorbed, and what it made of it.
