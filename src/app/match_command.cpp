@@ -85,7 +85,8 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--kick-off-wait", match.kickOffWait, "Simulated seconds before each half")
       ->capture_default_str();
   command->add_option("--seed", match.seed, "Seed of the server and of all agents")->capture_default_str();
-  command->add_flag("--realtime", options.realTime, "Play by the clock instead of in lock-step");
+  CLI::Option* realTime =
+      command->add_flag("--realtime", options.realTime, "Play by the clock instead of in lock-step");
   command->add_option("--players", arguments->players, "Players a side")
       ->capture_default_str()
       ->check(CLI::Range(1, 11));
@@ -97,7 +98,8 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--right-params", match.right.parameterFiles, "Parameter files of the right team")
       ->check(CLI::ExistingFile);
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
-  command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
+  CLI::Option* logs =
+      command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
   command->add_option("--monitor-log", match.monitorLog, "Record the monitor stream, for RoboViz");
   command->add_option("--port", options.port, "Port for agents, 0: any free one")->capture_default_str();
   command->add_option("--monitor-port", options.monitorPort, "Port for monitors, 0: any free one")
@@ -111,8 +113,10 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--set", arguments->assignments, "Settings of the server, Name=Value");
   command->add_flag("--check", match.check,
                     "Look in every cycle whether the physics holds: finite, within stops, above the ground");
-  CLI::Option* inProcess = command->add_flag("--in-process", arguments->inProcess,
-                                             "Agents and world in this process, without text and sockets");
+  CLI::Option* inProcess = command
+                               ->add_flag("--in-process", arguments->inProcess,
+                                          "Agents and world in this process, without text and sockets")
+                               ->excludes(logs, realTime);
   command
       ->add_flag(
           "--localization", arguments->localization,
