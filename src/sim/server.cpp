@@ -29,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 using asio::ip::tcp;
 
 constexpr auto kCycle = std::chrono::milliseconds(20);
+constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as silent
 constexpr std::size_t kMaxQueuedMessages =
     64;  // of one connection; more are merged (agents) or wait (monitors)
 
@@ -73,6 +74,8 @@ struct AgentLink {
   bool owesAnswer = false;  // lock-step: to the last sense message
   bool givenUp = false;     // lock-step: not waited for
   long dropped = 0;         // messages in a row
+  Clock::time_point heard = Clock::now();
+  bool silent = false;  // not heard for kSilence, and said so
   int skipped = 0;
 
   bool hasAnswered() const {
@@ -108,6 +111,7 @@ struct Server::Implementation {
   void deliverCommands();
   void sendSenses();
   void sendSense(AgentLink& link, const protocol::Percept& percept);
+  void noticeSilence();
   void reap();
   void executeTrainerCommands();
   void sendMonitorMessages();
@@ -216,6 +220,9 @@ std::string Server::Implementation::describe(const AgentLink& link) const {
 void Server::Implementation::agentMessage(AgentLink& link, std::string_view message) {
   protocol::Effectors effectors;
   const int skipped = protocol::parseEffectors(message, effectors);
+  if (link.silent) spdlog::info("server: {} sends again", describe(link));
+  link.silent = false;
+  link.heard = Clock::now();
   if (skipped > 0 && link.skipped == 0) {
     spdlog::warn("server: {} sends what is no command (ignored, said once)", describe(link));
   }
@@ -291,6 +298,7 @@ void Server::Implementation::cycle() {
   sendSenses();
   simulation.finishCycle();
   ++cycles;
+  noticeSilence();
   reap();
   if (cycles % 2 == 0) sendMonitorMessages();
   if (log) log->cycle();
@@ -378,6 +386,16 @@ void Server::Implementation::sendSense(AgentLink& link, const protocol::Percept&
   if (link.connection->dead()) return;
   ++statistics.droppedMessages;
   if (++link.dropped == 1) spdlog::warn("server: {} reads too slowly and loses messages", describe(link));
+}
+
+// In lock-step nobody can be silent unnoticed. By the clock the others play on; the log says who does not.
+void Server::Implementation::noticeSilence() {
+  if (options.lockStep) return;
+  for (const auto& link : agents) {
+    if (link->silent || link->sensesSent == 0 || Clock::now() - link->heard < kSilence) continue;
+    link->silent = true;
+    spdlog::warn("server: {} has sent nothing for {} s", describe(*link), kSilence.count());
+  }
 }
 
 // Server facts 1.10, and robots that a trainer has removed.

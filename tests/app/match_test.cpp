@@ -10,76 +10,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "app/program.h"
 
 namespace nonet::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Runs the program itself; its output goes to a file.
-class Program {
- public:
-  Program(const std::vector<std::string>& arguments, const fs::path& output) : output_(output) {
-    std::vector<std::string> command = {NONET_BINARY};
-    command.insert(command.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    for (std::string& argument : command) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ == 0) {
-      if (std::freopen(output_.c_str(), "w", stdout) == nullptr || ::dup2(1, 2) < 0) ::_exit(126);
-      ::execv(pointers[0], pointers.data());
-      ::_exit(127);
-    }
-  }
-  ~Program() {
-    if (!ended_) {
-      ::kill(pid_, SIGKILL);
-      wait();
-    }
-  }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
-  int wait() {
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    ended_ = true;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string output() const {
-    std::ifstream file(output_);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  /// Process ids of its agents by uniform number, of one team.
-  std::map<int, pid_t> agents(const std::string& team) const {
-    std::map<int, pid_t> found;
-    for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(pid_) + "/task")) {
-      std::ifstream children(task.path() / "children");
-      for (pid_t child = 0; children >> child;) {
-        std::ifstream file("/proc/" + std::to_string(child) + "/cmdline");
-        std::string part;
-        std::string before;
-        int unum = 0;
-        bool ours = false;
-        while (std::getline(file, part, '\0')) {
-          if (before == "--unum") unum = std::stoi(part);
-          if (before == "--team") ours = part == team;
-          before = part;
-        }
-        if (ours) found[unum] = child;
-      }
-    }
-    return found;
-  }
-
- private:
-  fs::path output_;
-  pid_t pid_ = -1;
-  bool ended_ = false;
-};
 
 class MatchCommand : public testing::Test {
  protected:

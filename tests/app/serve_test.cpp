@@ -1,0 +1,231 @@
+// The server and agents as processes, as on a match day: started by the scripts, harmed in every way a
+// network and an operating system can harm them.
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <regex>
+#include <thread>
+
+#include <asio.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "nonet/math/random.h"
+#include "nonet/protocol/framing.h"
+
+#include "app/program.h"
+
+namespace nonet::app {
+namespace {
+
+using asio::ip::tcp;
+
+std::string command(const std::string& name) {
+  return std::string(NONET_SOURCE_DIR) + "/scripts/" + name;
+}
+
+void pause(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+/// Passes one connection on to the server until it is cut.
+class Proxy {
+ public:
+  explicit Proxy(int serverPort)
+      : acceptor_(io_, {asio::ip::address_v4::loopback(), 0}), near_(io_), far_(io_) {
+    acceptor_.async_accept(near_, [this, serverPort](std::error_code error) {
+      if (error) return;
+      far_.connect({asio::ip::address_v4::loopback(), static_cast<asio::ip::port_type>(serverPort)});
+      far_.set_option(tcp::no_delay(true));
+      near_.set_option(tcp::no_delay(true));
+      pass(near_, far_, up_);
+      pass(far_, near_, down_);
+    });
+    thread_ = std::thread([this] { io_.run(); });
+  }
+  ~Proxy() {
+    cut();
+    thread_.join();
+  }
+  Proxy(const Proxy&) = delete;
+  Proxy& operator=(const Proxy&) = delete;
+
+  int port() const { return acceptor_.local_endpoint().port(); }
+  /// Both ends are reset, in the middle of whatever is under way.
+  void cut() {
+    asio::post(io_, [this] {
+      std::error_code ignored;
+      for (tcp::socket* socket : {&near_, &far_}) {
+        socket->set_option(asio::socket_base::linger(true, 0), ignored);
+        socket->close(ignored);
+      }
+      acceptor_.close(ignored);
+    });
+  }
+
+ private:
+  using Buffer = std::array<char, 4096>;
+
+  void pass(tcp::socket& from, tcp::socket& to, Buffer& buffer) {
+    from.async_read_some(asio::buffer(buffer), [&, this](std::error_code error, std::size_t size) {
+      std::error_code failure;
+      if (!error) asio::write(to, asio::buffer(buffer.data(), size), failure);
+      if (!error && !failure) pass(from, to, buffer);
+    });
+  }
+
+  asio::io_context io_{1};
+  tcp::acceptor acceptor_;
+  tcp::socket near_;
+  tcp::socket far_;
+  Buffer up_{};
+  Buffer down_{};
+  std::thread thread_;
+};
+
+class ServeCommand : public testing::Test {
+ protected:
+  /// The server on any free port; settings as for --set.
+  void serve(const std::vector<std::string>& settings) {
+    std::vector<std::string> arguments = {"serve", "--realtime", "--port", "0", "--monitor-port", "0"};
+    arguments.emplace_back("--end-with-match");
+    for (const std::string& setting : settings) {
+      arguments.emplace_back("--set");
+      arguments.push_back(setting);
+    }
+    server = std::make_unique<Program>(arguments, folder.file("server.txt"));
+    ASSERT_TRUE(server->says("monitors on port")) << server->output();
+    const std::string text = server->output();
+    port = std::stoi(text.substr(text.find("agents on port ") + 15));
+  }
+  std::unique_ptr<Program> play(const std::string& team, int unum, int atPort) {
+    const std::string name = team + std::to_string(unum);
+    return std::make_unique<Program>(
+        std::vector<std::string>{"play", "--port", std::to_string(atPort), "--team", team, "--unum",
+                                 std::to_string(unum), "--report", folder.file(name + ".json")},
+        folder.file(name + ".txt"));
+  }
+  nlohmann::json report(const std::string& name) const {
+    std::ifstream file(folder.file(name + ".json"));
+    return nlohmann::json::parse(file, nullptr, false);
+  }
+
+  TestFolder folder{"nonet_serve_test"};
+  std::unique_ptr<Program> server;
+  int port = 0;
+};
+
+// One agent killed, one stopped for five seconds, one cut off, and a stranger that sends random bytes: the
+// others play on, the server says what happened, the match ends with a result.
+TEST_F(ServeCommand, TheOthersPlayOnWhenAgentsAreHarmed) {
+  serve({"RuleHalfTime=4", "AutomaticKickOff=true", "WaitBeforeKickOff=2"});
+  Proxy proxy(port);
+  const auto healthy = play("Ours", 2, port);
+  const auto other = play("Theirs", 2, port);
+  const auto killed = play("Ours", 3, port);
+  const auto stopped = play("Theirs", 3, port);
+  const auto cutOff = play("Ours", 4, proxy.port());
+  for (const auto* agent : {&healthy, &other, &killed, &stopped, &cutOff})
+    ASSERT_TRUE((*agent)->says("connected to")) << (*agent)->output();
+
+  ::kill(killed->pid(), SIGKILL);
+  ::kill(stopped->pid(), SIGSTOP);
+  proxy.cut();
+  // Strangers with random bytes, in turns bare and as a well-formed frame, for as long as the other is
+  // stopped.
+  Random random(8);
+  for (int stranger = 0; stranger < 10; ++stranger) {
+    asio::io_context io;
+    tcp::socket socket(io);
+    socket.connect({asio::ip::address_v4::loopback(), static_cast<asio::ip::port_type>(port)});
+    std::string bytes(1000, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random.below(256));
+    std::string frame;
+    protocol::appendFrame(frame, bytes);
+    std::error_code refused;
+    asio::write(socket, asio::buffer(stranger % 2 == 0 ? bytes : frame), refused);
+    pause(0.5);
+  }
+  ::kill(stopped->pid(), SIGCONT);
+
+  EXPECT_EQ(server->wait(), 0);
+  const std::string said = server->output();
+  const auto tells = [&said](const std::string& pattern) {
+    return std::regex_search(said, std::regex(pattern));
+  };
+  EXPECT_TRUE(tells("player 3 of Ours .* is gone")) << said;
+  EXPECT_TRUE(tells("player 4 of Ours .* is gone")) << said;
+  EXPECT_TRUE(tells("player 3 of Theirs .* has sent nothing for 2 s")) << said;
+  EXPECT_TRUE(tells("player 3 of Theirs .* sends again")) << said;
+  EXPECT_TRUE(tells("agent 127.0.0.1:[0-9]+ is gone")) << "the stranger: " << said;
+  EXPECT_NE(said.find("ended at 8.0"), std::string::npos) << said;
+
+  EXPECT_EQ(cutOff->wait(), 3);
+  for (const auto* agent : {&healthy, &other, &stopped}) EXPECT_EQ((*agent)->wait(), 3);
+  for (const std::string name : {"Ours2", "Theirs2"}) {
+    EXPECT_GT(report(name)["messages"], 500) << name;
+    EXPECT_EQ(report(name)["unknown"], 0) << name;
+  }
+  // What was lost while it was stopped is counted; what came is still all it takes to go on.
+  EXPECT_GT(report("Theirs3")["messages"], 200);
+}
+
+class Scripts : public ServeCommand {
+ protected:
+  Scripts() {
+    ::setenv("NONET_BINARY", NONET_BINARY, 1);
+    ::setenv("NONET_LOGS", folder.file("logs").c_str(), 1);
+  }
+  ~Scripts() override {
+    ::unsetenv("NONET_BINARY");
+    ::unsetenv("NONET_LOGS");
+  }
+  std::string run(const std::string& script, const std::vector<std::string>& arguments) {
+    Program program(command(script), arguments, folder.file(script + ".txt"));
+    EXPECT_EQ(program.wait(), 0) << program.output();
+    return program.output();
+  }
+};
+
+TEST_F(Scripts, StartTheAgentsThatTheLeagueAsksForAndStopExactlyThose) {
+  serve({});
+  const auto stranger = play("Others", 5, port);
+  ASSERT_TRUE(stranger->says("connected to")) << stranger->output();
+  run("start.sh", {"127.0.0.1", "-p", std::to_string(port), "-t", "Ours", "-n", "3", "-mh", "127.0.0.1"});
+  for (const std::string unum : {"1", "2", "3"})
+    EXPECT_TRUE(server->says("number " + unum + " of team Ours")) << server->output();
+  run("startChallengePlayer.sh", {"127.0.0.1", std::to_string(port), "-3.5", "2", "keepaway"});
+  // The challenge player has number 2, which is taken: it says so and has ended by itself.
+  const std::string challengeLog = folder.file("logs/Nonet_challenge.log");
+  ASSERT_TRUE(fs::exists(challengeLog));
+
+  const std::string stopped = run("kill.sh", {});
+  EXPECT_NE(stopped.find("stopped "), std::string::npos) << stopped;
+  for (const std::string unum : {"1", "2", "3"})
+    EXPECT_TRUE(server->says("player " + unum + " of Ours .* is gone")) << server->output();
+  EXPECT_TRUE(stranger->running()) << "not started by the script, not stopped by it";
+  EXPECT_NE(run("kill.sh", {}).find("nothing was started"), std::string::npos);
+}
+
+TEST_F(Scripts, TheChallengePlayerBeamsToItsPlace) {
+  serve({});
+  run("startChallengePlayer.sh", {"127.0.0.1", std::to_string(port), "-3.5", "2", "keepaway"});
+  EXPECT_TRUE(server->says("number 2 of team Nonet")) << server->output();
+  std::ifstream file(folder.file("logs/Nonet_challenge.log"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("challenge keepaway"), std::string::npos) << text;
+  run("kill.sh", {});
+}
+
+TEST_F(Scripts, SayWhatTheyNeed) {
+  Program wrongCount(command("start.sh"), {"127.0.0.1", "-n", "12"}, folder.file("count.txt"));
+  EXPECT_EQ(wrongCount.wait(), 2);
+  EXPECT_NE(wrongCount.output().find("1 to 11"), std::string::npos);
+  Program missing(command("startChallengePlayer.sh"), {"127.0.0.1", "3100"}, folder.file("missing.txt"));
+  EXPECT_EQ(missing.wait(), 2);
+  EXPECT_NE(missing.output().find("HOST PORT X Y CHALLENGE"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nonet::app
