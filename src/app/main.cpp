@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
   nonet::app::addSkillCommand(app, exitCode);
   nonet::app::addWalkReportCommand(app, exitCode);
   nonet::app::addRiseReportCommand(app, exitCode);
+  nonet::app::addKickReportCommand(app, exitCode);
   CLI11_PARSE(app, argc, argv);
   return exitCode;
 }

@@ -10,6 +10,10 @@ namespace nonet::lab {
 const Task& goToTargetTask();
 const Task& sprintTask();
 const Task& getupTask();
+const Task& getupFrontTask();
+const Task& getupBackTask();
+const Task& kickTask();
+const Task& diveTask();
 const Task& quadraticTask();
 
 TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace nonet::motion {
@@ -25,8 +26,8 @@ constexpr RiseSkills kSide{{{"rise_side", "rise_side_2", "rise_side_3"}}};
 }  // namespace
 
 FallControl::FallControl(const model::RobotModel& model, const SkillLibrary& library,
-                         const FallParameters& parameters)
-    : model_(&model), library_(&library), parameters_(parameters) {}
+                         const FallParameters& parameters, const model::JointArray& stand)
+    : model_(&model), library_(&library), parameters_(parameters), stand_(stand) {}
 
 bool FallControl::update(const world::WorldState& world, SkillPlayer& player, JointTargets& targets) {
   const world::BodyState& body = world.body;
@@ -53,7 +54,7 @@ bool FallControl::update(const world::WorldState& world, SkillPlayer& player, Jo
     const bool quiet = body.gyro.norm() < parameters_.quietRate;
     const bool waited = lying_ && world.time - lyingSince_ > parameters_.longestWait;
     if (!fallen || (!quiet && !waited) || !startRising(body.posture, player, world, targets)) {
-      protect(targets);
+      protect(fallen, targets);
       return true;
     }
   }
@@ -65,26 +66,35 @@ bool FallControl::update(const world::WorldState& world, SkillPlayer& player, Jo
   return settle(world, targets);
 }
 
-// The skill is over: either the robot comes to stand, or the next attempt begins from what it has come to.
+// The skill is over: the robot comes to rest in its stand, or the next attempt begins from what it has come
+// to.
 bool FallControl::settle(const world::WorldState& world, JointTargets& targets) {
   const world::BodyState& body = world.body;
   lying_ = false;
   uprightSince_ = world.time;
-  if (body.posture == Posture::Upright) {
+  const bool late = world.time - settlingSince_ > parameters_.settleTime;
+  const bool upright = body.posture == Posture::Upright;
+  const bool quiet = std::hypot(body.pitch, body.roll) < parameters_.settledTilt &&
+                     body.gyro.norm() < parameters_.settledRate;
+  if (upright && (quiet || late)) {
     phase_ = Phase::None;
     return false;
   }
   const bool low = body.torsoHeight < kLowest * model_->standingHeight();
-  if (low || world.time - settlingSince_ > parameters_.settleTime) {
+  if (low || late) {
     phase_ = Phase::Falling;
-    protect(targets);
+    protect(world::isFallen(body.posture), targets);
   }
   return true;
 }
 
-void FallControl::protect(JointTargets& targets) const {
+// A robot that only leans far stands best on both feet: a step frozen in the middle would throw it over. Once
+// it is down everything straightens, so that the rising skills, which all begin from there, lose no time.
+void FallControl::protect(bool down, JointTargets& targets) const {
+  targets.angles = down ? model::JointArray{} : stand_;
+  const double yaw = down ? 0.0 : parameters_.armYaw;
   for (const Side side : {Side::Left, Side::Right}) {
-    setArm(side, ArmAttitude{parameters_.armPitch, parameters_.armYaw, 0.0, 0.0}, targets.angles);
+    setArm(side, ArmAttitude{parameters_.armPitch, yaw, 0.0, 0.0}, targets.angles);
   }
   targets.stiffness.fill(parameters_.softness);
 }

@@ -38,9 +38,10 @@ struct Motion::Stages {
          const std::string& skillFolder)
       : parameters(motionParameters),
         library(skillFolder, motionParameters.skills),
-        player(robot, library, WalkEngine::standAngles(robot, motionParameters.sets.goToTarget)),
+        stand(WalkEngine::standAngles(robot, motionParameters.sets.goToTarget)),
+        player(robot, library, stand),
         walk(robot, motionParameters.sets, motionParameters.selection),
-        fall(robot, library, motionParameters.fall),
+        fall(robot, library, motionParameters.fall, stand),
         head(robot, motionParameters.head) {}
 
   enum class Mode : std::uint8_t { Walk, Skill, Fall };
@@ -51,6 +52,7 @@ struct Motion::Stages {
 
   MotionParameters parameters;
   SkillLibrary library;
+  model::JointArray stand;
   SkillPlayer player;
   WalkControl walk;
   FallControl fall;

@@ -249,12 +249,10 @@ class Parser {
     }
     expect("{");
     while (!accept("}")) {
-      if (accept("foot")) {
-        instruction.feet.push_back(footGoal(side(), "at"));
-      } else if (accept("stand")) {
+      if (accept("stand")) {
         instruction.stand = true;
       } else {
-        joints(instruction, true);
+        target(instruction);
       }
     }
   }
@@ -270,8 +268,29 @@ class Parser {
       if (!instruction.fromBall) expect("torso");
     }
     expect("{");
-    while (!accept("}")) instruction.feet.push_back(footGoal(foot, "point"));
-    if (instruction.feet.empty()) fail("a curve needs at least one point");
+    while (!accept("}")) {
+      const SkillToken first = peek();
+      if (accept("point")) {
+        instruction.points.push_back(pose(foot));
+      } else {
+        target(instruction);
+      }
+      if (!instruction.feet.empty() && instruction.feet.back().side == foot) {
+        failAt(file_, first, "this foot follows the curve; only the other one may have a target");
+      }
+    }
+    const std::size_t count = instruction.points.size();
+    if (count == 0 || count > Instruction::kMostPoints) {
+      fail(fmt::format("a curve has 1 to {} points", Instruction::kMostPoints));
+    }
+  }
+
+  // Where a joint or a foot is to be at the end of a move or curve.
+  void target(Instruction& instruction) {
+    if (!accept("foot")) return joints(instruction, true);
+    const Side foot = side();
+    expect("at");
+    instruction.feet.push_back(pose(foot));
   }
 
   Side side() {
@@ -280,10 +299,9 @@ class Parser {
     fail("expected 'left' or 'right'");
   }
 
-  FootGoal footGoal(Side side, std::string_view keyword) {
+  FootGoal pose(Side side) {
     FootGoal goal;
     goal.side = side;
-    expect(keyword);
     goal.position = vector(Unit::Metre);
     if (accept("rpy")) goal.rollPitchYaw = vector(Unit::Radian);
     return goal;
@@ -430,10 +448,11 @@ class Parser {
       Quantity quantity;
       Unit unit;
     };
-    static constexpr std::array<QuantityWord, 7> kQuantities{
+    static constexpr std::array<QuantityWord, 8> kQuantities{
         {{"time", Quantity::Time, Unit::Second},
          {"pitch", Quantity::Pitch, Unit::Radian},
          {"roll", Quantity::Roll, Unit::Radian},
+         {"rate", Quantity::Rate, Unit::RadianPerSecond},
          {"height", Quantity::Height, Unit::Metre},
          {"ballDistance", Quantity::BallDistance, Unit::Metre},
          {"ballX", Quantity::BallX, Unit::Metre},

@@ -38,21 +38,13 @@ JointGoal mirroredGoal(const JointGoal& goal) {
   return {model::mirrored(goal.joint), mirrorsSign(goal.joint) ? -goal.angle : goal.angle};
 }
 
-// Cubic Hermite curve through points at equal times with Catmull-Rom slopes, at rest at both ends (AAMAS
-// 2012, section 5.1.3). `share` in 0..1 over the whole curve; point(i) gives waypoint i of 0..count.
-template <class PointAt>
-Vector3 hermite(const PointAt& point, int count, double share) {
-  const double s = std::clamp(share, 0.0, 1.0) * count;
-  const int i = std::min(static_cast<int>(s), count - 1);
-  const double t = s - i;
-  const auto slope = [&](int k) -> Vector3 {
-    if (k == 0 || k == count) return Vector3::Zero();
-    return 0.5 * (point(k + 1) - point(k - 1));
-  };
-  const double t2 = t * t;
-  const double t3 = t2 * t;
-  return (2 * t3 - 3 * t2 + 1) * point(i) + (t3 - 2 * t2 + t) * slope(i) + (3 * t2 - 2 * t3) * point(i + 1) +
-         (t3 - t2) * slope(i + 1);
+// The ball in the torso frame. The ball state is level, so the torso's tilt comes in.
+Vector3 ballFromTorso(const Vector2& p_RBall, const world::BodyState& body) {
+  const Vector3 p_level(p_RBall.x(), p_RBall.y(), kBallRadius - body.torsoHeight);
+  const Matrix3 R_LR =
+      (Eigen::AngleAxisd(body.pitch, Vector3::UnitY()) * Eigen::AngleAxisd(body.roll, Vector3::UnitX()))
+          .toRotationMatrix();
+  return R_LR.transpose() * p_level;
 }
 
 }  // namespace
@@ -190,28 +182,37 @@ void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const wor
     }
     duration_ = farthest / instruction.value;
   }
-  if (!instruction.feet.empty()) {
-    model::BodyPoses bodies;
-    model::forwardKinematics(*model_, from_, bodies);
-    for (const Side side : {Side::Left, Side::Right}) {
-      feetFrom_[index(side)] = model::solePose(*model_, bodies, side);
-    }
+  if (instruction.feet.empty() && instruction.points.empty()) return;
+  model::BodyPoses bodies;
+  model::forwardKinematics(*model_, from_, bodies);
+  for (const Side side : {Side::Left, Side::Right}) {
+    feetFrom_[index(side)] = model::solePose(*model_, bodies, side);
   }
-  if (instruction.fromBall) {
-    // The ball seen from the torso, on the ground: the ball state is level, so the torso's tilt comes in.
-    const Vector2 ball = ball_.value_or(world.ball.p_RB);
-    const Vector3 p_level(ball.x(), ball.y(), kBallRadius - world.body.torsoHeight);
-    const Matrix3 R_LR = (Eigen::AngleAxisd(world.body.pitch, Vector3::UnitY()) *
-                          Eigen::AngleAxisd(world.body.roll, Vector3::UnitX()))
-                             .toRotationMatrix();
-    p_RBall_ = R_LR.transpose() * p_level;
+  if (instruction.kind == Instruction::Kind::Curve) planCurve(instruction, mirrored, world);
+}
+
+// From where the foot is through the points at equal times, at rest at both ends (AAMAS 2012, section 5.1.3).
+void SkillPlayer::planCurve(const Instruction& instruction, bool mirrored, const world::WorldState& world) {
+  const Vector3 origin =
+      instruction.fromBall ? ballFromTorso(ball_.value_or(world.ball.p_RB), world.body) : Vector3::Zero();
+  const auto count = static_cast<double>(instruction.points.size());
+  curveSide_ = mirrored ? model::other(instruction.points[0].side) : instruction.points[0].side;
+  const Pose3& from = feetFrom_[index(curveSide_)];
+  curve_.clear();
+  curve_.add(0.0, from.translation(), Vector3::Zero());
+  curveAttitudes_[0] = anglesOf(from.linear());
+  for (const FootGoal& raw : instruction.points) {
+    const FootGoal point = mirrored ? mirroredGoal(raw) : raw;
+    const std::size_t i = curve_.size();
+    curve_.add(static_cast<double>(i) / count, origin + point.position, Vector3::Zero());
+    curveAttitudes_[i] = point.rollPitchYaw;
   }
+  curve_.smoothInnerKnots();
 }
 
 void SkillPlayer::chooseGoals(const Instruction& instruction, bool mirrored) {
   moves_ = 0;
-  if (instruction.kind != Instruction::Kind::MoveOver && instruction.kind != Instruction::Kind::MoveAt)
-    return;
+  if (instruction.kind == Instruction::Kind::Stiffness) return;  // its joints have no goals
   if (instruction.stand) {
     for (const model::JointSpec& joint : model_->joints()) moves_ |= 1U << model::index(joint.id);
     to_ = stand_;
@@ -231,47 +232,40 @@ void SkillPlayer::place(const Instruction& instruction, bool mirrored, double sh
     targets.angles[i] = from_[i] + share * (to_[i] - from_[i]);
     if (targets.stiffness[i] == 0.0) targets.stiffness[i] = 1.0;
   }
-  if (!instruction.feet.empty()) placeFoot(instruction, mirrored, share, targets);
+  placeFeet(instruction, mirrored, share, targets);
+  if (instruction.kind == Instruction::Kind::Curve) placeOnCurve(share, targets);
 }
 
-void SkillPlayer::placeFoot(const Instruction& instruction, bool mirrored, double share,
+void SkillPlayer::placeFeet(const Instruction& instruction, bool mirrored, double share,
                             JointTargets& targets) const {
-  const auto set = [&](Side side, const Vector3& position, const Vector3& rollPitchYaw) {
-    Pose3 X_RS = Pose3::Identity();
-    X_RS.translation() = position;
-    X_RS.linear() = rotationOf(rollPitchYaw);
-    model::LegAngles leg{};
-    model::legInverseKinematics(*model_, side, X_RS, leg);
-    model::setLegAngles(side, leg, targets.angles);
-  };
-  if (instruction.kind != Instruction::Kind::Curve) {
-    for (const FootGoal& raw : instruction.feet) {
-      const FootGoal goal = mirrored ? mirroredGoal(raw) : raw;
-      const Pose3& from = feetFrom_[index(goal.side)];
-      const Vector3 rpyFrom = anglesOf(from.linear());
-      set(goal.side, from.translation() + share * (goal.position - from.translation()),
-          rpyFrom + share * (goal.rollPitchYaw - rpyFrom));
-    }
-    return;
+  for (const FootGoal& raw : instruction.feet) {
+    const FootGoal goal = mirrored ? mirroredGoal(raw) : raw;
+    const Pose3& from = feetFrom_[index(goal.side)];
+    const Vector3 rpyFrom = anglesOf(from.linear());
+    setLeg(goal.side, from.translation() + share * (goal.position - from.translation()),
+           rpyFrom + share * (goal.rollPitchYaw - rpyFrom), targets);
   }
-  const FootGoal firstGoal = mirrored ? mirroredGoal(instruction.feet.front()) : instruction.feet.front();
-  const Pose3& from = feetFrom_[index(firstGoal.side)];
-  const int count = static_cast<int>(instruction.feet.size());
-  const auto goalAt = [&](int i) {
-    FootGoal goal = instruction.feet[static_cast<std::size_t>(i - 1)];
-    if (mirrored) goal = mirroredGoal(goal);
-    if (instruction.fromBall) goal.position += p_RBall_;
-    return goal;
-  };
-  const auto positionAt = [&](int i) -> Vector3 {
-    return i == 0 ? Vector3(from.translation()) : goalAt(i).position;
-  };
-  const Vector3 rpyFrom = anglesOf(from.linear());
-  const double s = std::clamp(share, 0.0, 1.0) * count;
-  const int i = std::min(static_cast<int>(s), count - 1);
-  const Vector3 before = i == 0 ? rpyFrom : goalAt(i).rollPitchYaw;
-  const Vector3 after = goalAt(i + 1).rollPitchYaw;
-  set(firstGoal.side, hermite(positionAt, count, share), before + (s - i) * (after - before));
+}
+
+// The attitude between two points is interpolated linearly (section 5.1.3).
+void SkillPlayer::placeOnCurve(double share, JointTargets& targets) const {
+  const auto pieces = static_cast<double>(curve_.size() - 1);
+  const double s = std::clamp(share, 0.0, 1.0) * pieces;
+  const auto i = static_cast<std::size_t>(std::min(s, pieces - 1.0));
+  const Vector3& before = curveAttitudes_[i];
+  const Vector3& after = curveAttitudes_[i + 1];
+  setLeg(curveSide_, curve_.at(std::clamp(share, 0.0, 1.0)),
+         before + (s - static_cast<double>(i)) * (after - before), targets);
+}
+
+void SkillPlayer::setLeg(Side side, const Vector3& position, const Vector3& rollPitchYaw,
+                         JointTargets& targets) const {
+  Pose3 X_RS = Pose3::Identity();
+  X_RS.translation() = position;
+  X_RS.linear() = rotationOf(rollPitchYaw);
+  model::LegAngles leg{};
+  model::legInverseKinematics(*model_, side, X_RS, leg);
+  model::setLegAngles(side, leg, targets.angles);
 }
 
 double SkillPlayer::quantity(Quantity quantity, bool mirrored, const world::WorldState& world) const {
@@ -282,6 +276,8 @@ double SkillPlayer::quantity(Quantity quantity, bool mirrored, const world::Worl
       return world.body.pitch;
     case Quantity::Roll:
       return mirrored ? -world.body.roll : world.body.roll;
+    case Quantity::Rate:
+      return world.body.gyro.norm();
     case Quantity::Height:
       return world.body.torsoHeight;
     case Quantity::BallDistance:

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "nonet/math/hermite_spline.h"
-#include "nonet/math/low_pass.h"
 #include "nonet/math/random.h"
 #include "nonet/math/types.h"
 
@@ -84,36 +83,6 @@ TEST(HermiteSpline, RefusesWrongTimesAndTooManyKnots) {
   spline.clear();
   EXPECT_TRUE(spline.add(-1.0, 4.0, 0.0));
   EXPECT_EQ(spline.at(0.0), 4.0);
-}
-
-// Closed form of the step response, at uneven intervals.
-TEST(LowPass, FollowsAStepExponentially) {
-  Random random(3);
-  LowPass<double> filter(0.05);
-  EXPECT_EQ(filter.update(2.0, 0.02), 2.0);
-  double time = 0.0;
-  for (int i = 0; i < 100; ++i) {
-    const double interval = 0.02 * static_cast<double>(1 + random.below(3));
-    time += interval;
-    EXPECT_NEAR(filter.update(5.0, interval), 5.0 - 3.0 * std::exp(-time / 0.05), 1e-12);
-  }
-  filter.reset();
-  EXPECT_EQ(filter.update(-1.0, 0.02), -1.0);
-}
-
-// Closed form of the gain at the cut-off: 1 / sqrt(2) (sampled fast enough to be nearly continuous).
-TEST(LowPass, HalvesThePowerAtItsCutOff) {
-  const double timeConstant = 0.1;
-  const double omega = 1.0 / timeConstant;
-  LowPass<Vector3> filter(timeConstant);
-  double highest = 0.0;
-  for (int i = 0; i < 20000; ++i) {
-    const double t = 1e-4 * i;
-    const Vector3 value = filter.update(Vector3(0.0, std::sin(omega * t), 1.0), 1e-4);
-    if (t > 1.0) highest = std::max(highest, value.y());
-    EXPECT_NEAR(value.z(), 1.0, 1e-15);
-  }
-  EXPECT_NEAR(highest, std::sqrt(0.5), 1e-3);
 }
 
 }  // namespace

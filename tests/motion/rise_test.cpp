@@ -1,33 +1,24 @@
 // Falling and rising on the physics, at reduced counts: `nonet rise-report` measures a hundred falls of each
 // kind.
-#include <filesystem>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
-#include "nonet/lab/agent_setup.h"
 #include "nonet/lab/rise_report.h"
+#include "nonet/motion/skill_library.h"
+#include "nonet/motion/skill_player.h"
+#include "nonet/motion/walk_engine.h"
+
+#include "motion/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
-
-// As an agent of this type would be set up: with its parameter file.
-TrialSetup setupFor(int type) {
-  AgentChoice choice;
-  choice.robotType = type;
-  const agent::AgentConfig config = makeAgentConfig(choice, NONET_SOURCE_DIR);
-  TrialSetup setup;
-  setup.robotType = type;
-  setup.motion = config.parameters.motion;
-  setup.world = config.parameters.world;
-  setup.skillFolder = config.skillFolder;
-  return setup;
-}
 
 class Rising : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, Rising, testing::Range(0, model::kRobotTypeCount));
 
 TEST_P(Rising, StandsUpFromEverySide) {
-  const TrialSetup setup = setupFor(GetParam());
+  const TrialSetup setup = agentTrialSetup(GetParam());
   for (const FallKind kind : {FallKind::Front, FallKind::Back, FallKind::Side}) {
     int fell = 0;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -42,8 +33,38 @@ TEST_P(Rising, StandsUpFromEverySide) {
   }
 }
 
+// The second and third attempts, each by itself from lying still.
+TEST(RiseSkills, EveryVariantGetsUp) {
+  const TrialSetup setup = agentTrialSetup(0);
+  const motion::SkillLibrary library(setup.skillFolder, setup.motion.skills);
+  const model::JointArray stand =
+      motion::WalkEngine::standAngles(model::robotModel(0), setup.motion.sets.goToTarget);
+  for (const char* name :
+       {"rise_front", "rise_front_2", "rise_front_3", "rise_back", "rise_back_2", "rise_back_3"}) {
+    RobotTrial trial(setup);
+    trial.settle(Pose2());
+    motion::JointTargets targets;
+    targets.angles = trial.belief().body.joints;
+    targets.stiffness.fill(1.0);
+    const double lean = std::string_view(name).starts_with("rise_front") ? 0.7 : -0.7;
+    for (const auto ankle : {model::JointId::LLeg5, model::JointId::RLeg5})
+      targets.angles[model::index(ankle)] += lean;
+    for (int i = 0; i < 100; ++i) trial.stepJoints(targets);
+    ASSERT_TRUE(world::isFallen(trial.belief().body.posture)) << name;
+    motion::SkillPlayer player(trial.model(), library, stand);
+    ASSERT_TRUE(player.start(name, false, targets.angles));
+    for (int i = 0; i < 400 && player.running(); ++i) {
+      player.update(trial.belief(), targets);
+      trial.stepJoints(targets);
+    }
+    for (int i = 0; i < 25; ++i) trial.stepJoints(targets);
+    EXPECT_FALSE(trial.down()) << name;
+    EXPECT_LT(trial.tilt(), 0.3) << name;
+  }
+}
+
 TEST(RiseReport, TheSameSeedGivesTheSameFall) {
-  const TrialSetup setup = setupFor(0);
+  const TrialSetup setup = agentTrialSetup(0);
   const Rise one = fallAndRise(setup, FallKind::Front, 5);
   const Rise two = fallAndRise(setup, FallKind::Front, 5);
   EXPECT_EQ(one.time, two.time);
@@ -53,7 +74,7 @@ TEST(RiseReport, TheSameSeedGivesTheSameFall) {
 // The protection begins before the torso meets the ground.
 TEST(Falling, IsNoticedBeforeImpact) {
   for (const double direction : {1.0, -1.0}) {
-    RobotTrial trial(setupFor(0));
+    RobotTrial trial(agentTrialSetup(0));
     trial.settle(Pose2());
     motion::JointTargets lean;
     lean.angles = trial.belief().body.joints;

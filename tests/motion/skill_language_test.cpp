@@ -111,7 +111,8 @@ TEST(SkillLanguage, ErrorsNameFileLineAndColumn) {
       {"skill a { wait 1s ; }", "this character means nothing"},
       {"skill a { stiffness 2 }", "between 0 and 1"},
       {"skill a { move over 1s + 1deg { } }", "units of a sum differ"},
-      {"skill a { curve left foot over 1s { } }", "at least one point"},
+      {"skill a { curve left foot over 1s { } }", "1 to 12 points"},
+      {"skill a { curve left foot over 1s { point (0, 0, 0) foot left at (0, 0, 0) } }", "follows the curve"},
       {"skil a { }", "expected 'skill'"},
   };
   for (const auto& [text, message] : cases) EXPECT_THAT(errorOf(text), HasSubstr(message)) << text;

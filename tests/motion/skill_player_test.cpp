@@ -1,5 +1,6 @@
 #include "nonet/motion/skill_player.h"
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -161,6 +162,31 @@ TEST_F(Player, CurvesPassThroughTheirPointsRelativeToTheBall) {
              Vector3(0.05, 0.065, 0.042 - 0.35 + 0.02))
                 .norm(),
             1e-9);
+}
+
+// While one foot follows a curve the other one and the arms go straight to their goals; all of it mirrored.
+TEST_F(Player, TheOtherFootAndTheArmsMoveBesideACurve) {
+  load(
+      "skill a { curve left foot over 0.2s { point (20mm, 60mm, -0.32m) point (60mm, 70mm, -0.34m)\n"
+      "foot right at (-20mm, -50mm, -0.35m) rpy (0, 0, -10deg) left.shoulderPitch -40deg } }",
+      true);
+  const auto sole = [&](model::Side side) {
+    model::BodyPoses bodies;
+    model::forwardKinematics(model_, targets_.angles, bodies);
+    return model::solePose(model_, bodies, side);
+  };
+  const Vector3 from = sole(model::Side::Left).translation();
+  for (int i = 0; i < 5; ++i) step();
+  const Vector3 half = sole(model::Side::Left).translation();
+  EXPECT_LT((half - 0.5 * (from + Vector3(-0.02, 0.05, -0.35))).norm(), 1e-9);
+  EXPECT_LT((sole(model::Side::Right).translation() - Vector3(0.02, -0.06, -0.32)).norm(), 1e-9);
+  for (int i = 0; i < 5; ++i) step();
+  EXPECT_LT((sole(model::Side::Left).translation() - Vector3(-0.02, 0.05, -0.35)).norm(), 1e-9);
+  const Matrix3 turned = sole(model::Side::Left).linear();
+  EXPECT_NEAR(std::atan2(turned(1, 0), turned(0, 0)), toRadians(10.0), 1e-9);
+  EXPECT_LT((sole(model::Side::Right).translation() - Vector3(0.06, -0.07, -0.34)).norm(), 1e-9);
+  EXPECT_NEAR(angle(JointId::RArm1), toRadians(-40.0), 1e-12);
+  EXPECT_EQ(angle(JointId::LArm1), 0.0);
 }
 
 TEST_F(Player, UnknownSkillDoesNotStart) {

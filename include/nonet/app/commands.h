@@ -16,5 +16,6 @@ void addOptimizeCommand(CLI::App& app, int& exitCode);
 void addSkillCommand(CLI::App& app, int& exitCode);
 void addWalkReportCommand(CLI::App& app, int& exitCode);
 void addRiseReportCommand(CLI::App& app, int& exitCode);
+void addKickReportCommand(CLI::App& app, int& exitCode);
 
 }  // namespace nonet::app

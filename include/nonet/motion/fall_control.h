@@ -13,9 +13,11 @@ namespace nonet::motion {
 
 struct FallParameters {
   double softness = 0.3;
-  double quietRate = 1.5;
+  double quietRate = 4.0;
   double longestWait = 0.6;
   double settleTime = 0.8;
+  double settledTilt = 0.12;
+  double settledRate = 0.8;
   double armPitch = -1.57;
   double armYaw = 0.4;
 
@@ -35,6 +37,14 @@ struct FallParameters {
            fixed,
            "After a rising skill the robot may sway so long before the next attempt begins"},
           self.settleTime);
+    visit({"settledTilt", Unit::Radian, {0.0, 1.0}, fixed, "After rising: leaning less than this"},
+          self.settledTilt);
+    visit({"settledRate",
+           Unit::RadianPerSecond,
+           {0.0, 20.0},
+           fixed,
+           "and turning slower than this the robot may walk again"},
+          self.settledRate);
     visit({"armPitch", Unit::Radian, {-2.0, 2.0}, fixed, "Shoulder pitch while falling"}, self.armPitch);
     visit({"armYaw", Unit::Radian, {0.0, 1.6}, fixed, "Arms outwards while falling"}, self.armYaw);
   }
@@ -42,7 +52,9 @@ struct FallParameters {
 
 class FallControl {
  public:
-  FallControl(const model::RobotModel& model, const SkillLibrary& library, const FallParameters& parameters);
+  /// `stand`: the angles to come back to while a fall is not yet certain.
+  FallControl(const model::RobotModel& model, const SkillLibrary& library, const FallParameters& parameters,
+              const model::JointArray& stand);
 
   /// True while it is in control and has filled the targets.
   bool update(const world::WorldState& world, SkillPlayer& player, JointTargets& targets);
@@ -55,13 +67,14 @@ class FallControl {
   // Settling: the skill is over, the robot still sways into the stand.
   enum class Phase : std::uint8_t { None, Falling, Rising, Settling };
   bool settle(const world::WorldState& world, JointTargets& targets);
-  void protect(JointTargets& targets) const;
+  void protect(bool down, JointTargets& targets) const;
   bool startRising(world::Posture posture, SkillPlayer& player, const world::WorldState& world,
                    JointTargets& targets);
 
   const model::RobotModel* model_;
   const SkillLibrary* library_;
   FallParameters parameters_;
+  model::JointArray stand_;
   Phase phase_ = Phase::None;
   int attempts_ = 0;            // since the robot last stood for a while
   double settlingSince_ = 0.0;  // server time, s

@@ -39,7 +39,7 @@ struct FootGoal {
   Vector3 rollPitchYaw = Vector3::Zero();  // rad, applied as yaw, then pitch, then roll
 };
 
-enum class Quantity : std::uint8_t { Time, Pitch, Roll, Height, BallDistance, BallX, BallY };
+enum class Quantity : std::uint8_t { Time, Pitch, Roll, Rate, Height, BallDistance, BallX, BallY };
 
 /// Condition tree in a flat list; children are indices into the same list.
 struct ConditionNode {
@@ -66,10 +66,11 @@ struct ConditionNode {
 };
 
 struct Instruction {
+  static constexpr std::size_t kMostPoints = 12;
   enum class Kind : std::uint8_t {
     MoveOver,   // to the goals in `value` seconds
     MoveAt,     // to the goals at `value` rad/s; the joint with the longest way decides the end
-    Curve,      // one foot along a spline through its goals in `value` seconds
+    Curve,      // one foot along a spline through `points`, to the goals beside it, in `value` seconds
     Wait,       // `value` seconds
     WaitUntil,  // the condition, at most `value` seconds
     Branch,     // to `target` if the condition does not hold
@@ -84,8 +85,9 @@ struct Instruction {
   double value = 0.0;
   std::vector<JointGoal> joints;
   std::vector<FootGoal> feet;
-  bool fromBall = false;
-  bool stand = false;  // every joint that has no goal of its own goes to the stand
+  std::vector<FootGoal> points;  // of a curve, at most kMostPoints, all of one side
+  bool fromBall = false;         // the points are relative to the ball
+  bool stand = false;            // every joint that has no goal of its own goes to the stand
   int condition = -1;
   int target = 0;
   int count = 0;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "nonet/math/hermite_spline.h"
 #include "nonet/motion/limbs.h"
 #include "nonet/motion/request.h"
 #include "nonet/motion/skill_library.h"
@@ -52,7 +53,11 @@ class SkillPlayer {
              const JointTargets& targets);
   void chooseGoals(const Instruction& instruction, bool mirrored);
   void place(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
-  void placeFoot(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
+  void planCurve(const Instruction& instruction, bool mirrored, const world::WorldState& world);
+  void placeFeet(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
+  void placeOnCurve(double share, JointTargets& targets) const;
+  void setLeg(model::Side side, const Vector3& position, const Vector3& rollPitchYaw,
+              JointTargets& targets) const;
   Frame& top() { return frames_[static_cast<std::size_t>(depth_ - 1)]; }
 
   const model::RobotModel* model_;
@@ -60,16 +65,19 @@ class SkillPlayer {
   model::JointArray stand_;
   std::array<Frame, SkillLibrary::kDeepestCall + 1> frames_{};
   int depth_ = 0;
-  double time_ = 0.0;                  // since the start of the outermost skill, s
-  bool begun_ = false;                 // the present instruction has begun
-  double inInstruction_ = 0.0;         // s
-  double duration_ = 0.0;              // of the present instruction, s
-  model::JointArray from_{};           // angles at its begin
-  model::JointArray to_{};             // at its end, where `moves_` says so
-  std::uint32_t moves_ = 0;            // bit per joint
-  FootPoses feetFrom_{};               // sole poses at its begin
-  std::optional<Vector2> ball_;        // given at the start
-  Vector3 p_RBall_ = Vector3::Zero();  // in the torso frame, m
+  double time_ = 0.0;            // since the start of the outermost skill, s
+  bool begun_ = false;           // the present instruction has begun
+  double inInstruction_ = 0.0;   // s
+  double duration_ = 0.0;        // of the present instruction, s
+  model::JointArray from_{};     // angles at its begin
+  model::JointArray to_{};       // at its end, where `moves_` says so
+  std::uint32_t moves_ = 0;      // bit per joint
+  FootPoses feetFrom_{};         // sole poses at its begin
+  std::optional<Vector2> ball_;  // given at the start
+  // The present curve, over its share 0..1: sole in the torso frame, m; attitude at the points, rad.
+  HermiteSpline<Vector3, Instruction::kMostPoints + 1> curve_;
+  std::array<Vector3, Instruction::kMostPoints + 1> curveAttitudes_{};
+  model::Side curveSide_ = model::Side::Left;
 };
 
 }  // namespace nonet::motion

@@ -1,0 +1,21 @@
+// A robot set up as an agent of its type would be: with its parameter file.
+#pragma once
+
+#include "nonet/lab/agent_setup.h"
+#include "nonet/lab/robot_trial.h"
+
+namespace nonet::lab {
+
+inline TrialSetup agentTrialSetup(int type) {
+  AgentChoice choice;
+  choice.robotType = type;
+  const agent::AgentConfig config = makeAgentConfig(choice, NONET_SOURCE_DIR);
+  TrialSetup setup;
+  setup.robotType = type;
+  setup.motion = config.parameters.motion;
+  setup.world = config.parameters.world;
+  setup.skillFolder = config.skillFolder;
+  return setup;
+}
+
+}  // namespace nonet::lab
