@@ -334,8 +334,7 @@ AgentHandle Simulation::connect() {
   return implementation_->addAgent().handle;
 }
 
-AgentHandle Simulation::enter(const protocol::SceneEffector& scene,
-                              const protocol::InitEffector& init) {
+AgentHandle Simulation::enter(const protocol::SceneEffector& scene, const protocol::InitEffector& init) {
   Agent& agent = implementation_->addAgent();
   agent.enters = true;
   agent.scene = scene;
