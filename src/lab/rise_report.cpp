@@ -16,6 +16,7 @@ using model::JointId;
 using motion::MotionRequest;
 using world::Posture;
 
+constexpr int kMostThrows = 60;    // until one ends in a fall
 constexpr double kLongest = 12.0;  // s: the referee takes a field player away after 15 s on the ground
 constexpr double kLasts = 0.6;     // s that a stand must last
 constexpr double kTipped = 0.5;    // rad: from here on the robot falls
@@ -116,22 +117,22 @@ Rise fallAndRise(const TrialSetup& setup, FallKind kind, std::uint64_t seed) {
 }
 
 RiseReport measureRising(const RiseReportSettings& settings) {
-  // More falls than asked for, since some end otherwise than wanted; the first ones of each kind count.
-  const int tries = 2 * settings.falls + 4;
-  const int count = static_cast<int>(kFallKindCount) * tries;
+  const int count = static_cast<int>(kFallKindCount) * settings.falls;
   std::vector<Rise> rises(static_cast<std::size_t>(count));
   const Random seeds(settings.seed);
   inParallel(count, settings.threads, [&](int i) {
-    const auto kind = static_cast<FallKind>(i / tries);
-    rises[static_cast<std::size_t>(i)] =
-        fallAndRise(settings.setup, kind, seeds.fork(static_cast<std::uint64_t>(i)).next());
+    const auto kind = static_cast<FallKind>(i / settings.falls);
+    Rise& rise = rises[static_cast<std::size_t>(i)];
+    // Some throws are caught or end otherwise than wanted: thrown again.
+    Random own = seeds.fork(static_cast<std::uint64_t>(i));
+    for (int k = 0; k < kMostThrows && !rise.fell; ++k) rise = fallAndRise(settings.setup, kind, own.next());
   });
   RiseReport report;
   for (std::size_t kind = 0; kind < kFallKindCount; ++kind) {
     RiseStatistics& statistics = report.kinds[kind];
     std::vector<double> times;
-    for (int i = 0; i < tries && statistics.falls < settings.falls; ++i) {
-      const Rise& rise = rises[kind * static_cast<std::size_t>(tries) + static_cast<std::size_t>(i)];
+    for (int i = 0; i < settings.falls; ++i) {
+      const Rise& rise = rises[kind * static_cast<std::size_t>(settings.falls) + static_cast<std::size_t>(i)];
       if (!rise.fell) continue;
       ++statistics.falls;
       if (!rise.stands) continue;
