@@ -22,7 +22,7 @@ std::string MpiJob::share(const std::string& text) const {
 std::unique_ptr<Evaluator> makeMpiEvaluator(MpiJob&, Objective) {
   noMpi();
 }
-void serveEvaluations(const MpiJob&, const Objective&) {
+void serveEvaluations(MpiJob&, const Objective&) {
   noMpi();
 }
 
@@ -184,10 +184,10 @@ class MpiEvaluator final : public Evaluator {
         ranks_(static_cast<std::size_t>(job.size())) {}
 
   ~MpiEvaluator() override {
-    for (int rank = 1; rank < job_.size(); ++rank) {
-      send(rank, kTagStop, {});
-      if (ranks_[static_cast<std::size_t>(rank)].overdue) job_.giveUpFinalize();
-    }
+    // Finalizing waits for all ranks: where one is lost, nobody may.
+    const bool complete = workers() == job_.size();
+    if (!complete) job_.giveUpFinalize();
+    for (int rank = 1; rank < job_.size(); ++rank) send(rank, kTagStop, complete ? "" : "one is lost");
   }
   MpiEvaluator(const MpiEvaluator&) = delete;
   MpiEvaluator& operator=(const MpiEvaluator&) = delete;
@@ -357,7 +357,7 @@ std::unique_ptr<Evaluator> makeMpiEvaluator(MpiJob& job, Objective objective) {
   return std::make_unique<MpiEvaluator>(job, std::move(objective));
 }
 
-void serveEvaluations(const MpiJob& job, const Objective& objective) {
+void serveEvaluations(MpiJob& job, const Objective& objective) {
   if (job.rank() == 0) throw std::runtime_error("rank 0 hands out the work");
   auto heard = Clock::now();
   while (Clock::now() - heard < kRankZeroSilent) {
@@ -366,7 +366,10 @@ void serveEvaluations(const MpiJob& job, const Objective& objective) {
       std::this_thread::sleep_for(kPoll);
       continue;
     }
-    if (message->tag == kTagStop) return;
+    if (message->tag == kTagStop) {
+      if (!message->bytes.empty()) job.giveUpFinalize();
+      return;
+    }
     if (message->tag == kTagJob) {
       std::int64_t id = 0;
       const Job work = unpackJob(message->bytes, id);
@@ -375,6 +378,7 @@ void serveEvaluations(const MpiJob& job, const Objective& objective) {
     }
     heard = Clock::now();
   }
+  job.giveUpFinalize();  // rank 0 is lost
 }
 
 }  // namespace nonet::lab

@@ -41,6 +41,6 @@ class MpiJob {
 std::unique_ptr<Evaluator> makeMpiEvaluator(MpiJob& job, Objective objective);
 
 /// On the other ranks: evaluates until rank 0 says stop, or is silent for so long that it must be dead.
-void serveEvaluations(const MpiJob& job, const Objective& objective);
+void serveEvaluations(MpiJob& job, const Objective& objective);
 
 }  // namespace nonet::lab
