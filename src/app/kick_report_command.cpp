@@ -19,13 +19,9 @@ struct KickReportArguments {
 };
 
 int run(const KickReportArguments& arguments) {
-  const agent::AgentConfig config = lab::makeAgentConfig(arguments.choice, dataFolder());
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup.robotType = arguments.choice.robotType;
-  settings.setup.motion = config.parameters.motion;
-  settings.setup.world = config.parameters.world;
-  settings.setup.skillFolder = config.skillFolder;
+  settings.setup = lab::trialSetup(lab::makeAgentConfig(arguments.choice, dataFolder()));
   const lab::KickReport report = lab::measureKicks(settings);
   fmt::print("{}", arguments.json ? lab::kickReportJson(report) : lab::kickReportTable(report));
   return 0;

@@ -19,13 +19,9 @@ struct RiseReportArguments {
 };
 
 int run(const RiseReportArguments& arguments) {
-  const agent::AgentConfig config = lab::makeAgentConfig(arguments.choice, dataFolder());
   lab::RiseReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup.robotType = arguments.choice.robotType;
-  settings.setup.motion = config.parameters.motion;
-  settings.setup.world = config.parameters.world;
-  settings.setup.skillFolder = config.skillFolder;
+  settings.setup = lab::trialSetup(lab::makeAgentConfig(arguments.choice, dataFolder()));
   const lab::RiseReport report = lab::measureRising(settings);
   fmt::print("{}", arguments.json ? lab::riseReportJson(report) : lab::riseReportTable(report));
   return 0;

@@ -37,13 +37,9 @@ int run(WalkReportArguments arguments) {
   arguments.choice.learned = !arguments.initial;
   if (arguments.overTcp && arguments.settings.courses > 0)
     throw std::runtime_error("courses are walked in process only: leave out --tcp or --courses");
-  const agent::AgentConfig config = lab::makeAgentConfig(arguments.choice, dataFolder());
   lab::WalkReportSettings& settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup.robotType = arguments.choice.robotType;
-  settings.setup.motion = config.parameters.motion;
-  settings.setup.world = config.parameters.world;
-  settings.setup.skillFolder = config.skillFolder;
+  settings.setup = lab::trialSetup(lab::makeAgentConfig(arguments.choice, dataFolder()));
   if (arguments.overTcp) settings.server = arguments.server;
   if (!arguments.traceFile.empty()) {
     writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/config/parameters.h"
+#include "nonet/lab/robot_trial.h"
 #include "nonet/math/random.h"
 
 namespace nonet::lab {
@@ -28,6 +29,15 @@ agent::AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string&
   if (choice.learned && std::filesystem::exists(typeFile)) config::overlayFile(config.parameters, typeFile);
   for (const std::string& file : choice.parameterFiles) config::overlayFile(config.parameters, file);
   return config;
+}
+
+TrialSetup trialSetup(const agent::AgentConfig& config) {
+  TrialSetup setup;
+  setup.robotType = config.robotType;
+  setup.motion = config.parameters.motion;
+  setup.world = config.parameters.world;
+  setup.skillFolder = config.skillFolder;
+  return setup;
 }
 
 protocol::LogHeader logHeader(const agent::AgentConfig& config, const std::string& version) {

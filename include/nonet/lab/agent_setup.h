@@ -12,6 +12,8 @@
 
 namespace nonet::lab {
 
+struct TrialSetup;
+
 struct AgentChoice {
   int unum = 0;  // 1..11, 0: the server chooses
   std::string team = "Nonet";
@@ -25,6 +27,9 @@ struct AgentChoice {
 /// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml if there is one, then
 /// the given files. Throws config::ParameterError. `dataFolder` holds params/ and skills/.
 agent::AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFolder);
+
+/// The body and mind of that agent for a robot alone on the field (robot_trial.h).
+TrialSetup trialSetup(const agent::AgentConfig& config);
 
 /// What the header of a log must hold so that agentFromLog() builds the same agent.
 protocol::LogHeader logHeader(const agent::AgentConfig& config, const std::string& version);
