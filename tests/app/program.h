@@ -54,14 +54,15 @@ class Program {
     ended_ = true;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  std::string output() const {
-    std::ifstream file(output_);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string output() const { return textOf(output_); }
   /// Waits until a line of its output matches.
   bool says(const std::string& pattern, double seconds = 20.0) const {
+    return fileSays(output_, pattern, seconds);
+  }
+  /// Waits until a line of the file matches: what a program in the background has said is not there at once.
+  static bool fileSays(const fs::path& path, const std::string& pattern, double seconds = 20.0) {
     for (int i = 0; i < seconds * 20; ++i) {
-      if (std::regex_search(output(), std::regex(pattern))) return true;
+      if (std::regex_search(textOf(path), std::regex(pattern))) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     return false;
@@ -95,6 +96,11 @@ class Program {
   }
 
  private:
+  static std::string textOf(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
   fs::path output_;
   pid_t pid_ = -1;
   bool ended_ = false;

@@ -212,9 +212,7 @@ TEST_F(Scripts, TheChallengePlayerBeamsToItsPlace) {
   serve({});
   run("startChallengePlayer.sh", {"127.0.0.1", std::to_string(port), "-3.5", "2", "keepaway"});
   EXPECT_TRUE(server->says("number 2 of team Nonet")) << server->output();
-  std::ifstream file(folder.file("logs/Nonet_challenge.log"));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_NE(text.find("challenge keepaway"), std::string::npos) << text;
+  EXPECT_TRUE(Program::fileSays(folder.file("logs/Nonet_challenge.log"), "challenge keepaway"));
   run("kill.sh", {});
 }
 
