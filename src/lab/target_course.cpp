@@ -16,7 +16,6 @@ namespace {
 using Kind = CourseLeg::Kind;
 using motion::MotionRequest;
 
-constexpr double kFallCost = 5.0;
 constexpr double kFarthest = 100.0;         // m, nobody walks there
 constexpr double kReached = 0.15;           // m
 constexpr double kTurned = 0.1745;          // rad
@@ -24,6 +23,7 @@ constexpr double kPlaced = 0.35;            // rad
 constexpr double kTurnWorth = 0.4;          // m per rad: a turn of half a circle counts as 1.26 m
 constexpr double kNoiseHold = 0.2;          // s between new noise
 constexpr double kHeadingGain = 4.0;        // 1/s, of held headings
+constexpr double kPushEvery = 2.0;          // s, on average
 constexpr double kLongestLeg = 30.0;        // s, of courses without time limits
 constexpr double kFastest = 3.0;            // m/s; the walk clamps it to what it can do
 constexpr double kFastestTurn = 2.0 * kPi;  // rad/s
@@ -196,6 +196,7 @@ class Walker {
     for (int i = 0; i < cycles && !reached; ++i) {
       if (leg.noise > 0.0 && i % std::lround(kNoiseHold / kCycleTime) == 0)
         noise = leg.noise * Vector2(random_.normal(), random_.normal());
+      if (options_.push > 0.0 && random_.uniform() < kCycleTime / kPushEvery) push();
       trial_->step(request(leg, at, target + noise, start.rotation, heading));
       if (exploded()) return giveUp();
       const Pose2 now = trial_->pose();
@@ -261,10 +262,20 @@ class Walker {
     return request;
   }
 
+  void push() {
+    const Vector2 v = polar(options_.push * std::sqrt(random_.uniform()), random_.uniform(-kPi, kPi));
+    sim::World& physics = trial_->physics();
+    for (const model::BodySpec& body : trial_->model().bodies()) {
+      auto state = physics.bodyState(trial_->robot(), body.id);
+      state.velocity.head<2>() += v;
+      physics.setBodyState(trial_->robot(), body.id, state);
+    }
+  }
+
   void fall(const Pose2& at, int cycles) {
     result_.time += cycles * kCycleTime;
     result_.falls += 1;
-    result_.reward -= kFallCost;
+    result_.reward -= options_.fallCost;
     if (result_.falls < options_.mostFalls) stand(at);
   }
 
@@ -275,7 +286,7 @@ class Walker {
     return !torso.allFinite() || torso.norm() > kFarthest;
   }
   void giveUp() {
-    result_.reward -= kFallCost * (options_.mostFalls - result_.falls);
+    result_.reward -= options_.fallCost * (options_.mostFalls - result_.falls);
     result_.falls = options_.mostFalls;
   }
 

@@ -8,9 +8,9 @@
 namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
-  static const std::array<const Task*, 8> tasks{&goToTargetTask(), &sprintTask(),    &getupTask(),
-                                                &getupFrontTask(), &getupBackTask(), &kickTask(),
-                                                &diveTask(),       &quadraticTask()};
+  static const std::array<const Task*, 9> tasks{&goToTargetTask(), &duelTask(),       &sprintTask(),
+                                                &getupTask(),      &getupFrontTask(), &getupBackTask(),
+                                                &kickTask(),       &diveTask(),       &quadraticTask()};
   return tasks;
 }
 

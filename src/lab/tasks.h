@@ -8,6 +8,7 @@
 namespace nonet::lab {
 
 const Task& goToTargetTask();
+const Task& duelTask();
 const Task& sprintTask();
 const Task& getupTask();
 const Task& getupFrontTask();

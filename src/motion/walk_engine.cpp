@@ -49,6 +49,7 @@ void WalkEngine::reset() {
   mode_ = Mode::Standing;
   phase_ = 1.0;
   wanted_ = step_ = odometryStep_ = Pose2{};
+  acceleration_ = Vector2::Zero();
   historySize_ = 0;
   trace_ = WalkTrace{};
   feetPlaced_ = false;
@@ -110,10 +111,15 @@ void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
                                1.0 / e);
   if (norm > 1.0) desired = scaled(desired, 1.0 / norm);
 
-  const auto closed = [cycles](double delta) { return 1.0 - std::pow(1.0 - delta, cycles); };
+  const auto closed = [cycles](double delta) { return 1.0 - std::pow(1.0 - std::min(delta, 1.0), cycles); };
+  const auto change = [&](double value, double goal, double delta, double most) {
+    const bool shrinks = value * (goal - value) < 0.0;
+    const double factor = shrinks ? p.brake : 1.0;
+    return approach(value, goal, closed(factor * delta), factor * most * cycles);
+  };
   Vector2& w = wanted_.translation;
-  w.x() = approach(w.x(), desired.translation.x(), closed(p.deltaStepX), p.maxChangeX * cycles);
-  w.y() = approach(w.y(), desired.translation.y(), closed(p.deltaStepY), p.maxChangeY * cycles);
+  w.x() = change(w.x(), desired.translation.x(), p.deltaStepX, p.maxChangeX);
+  w.y() = change(w.y(), desired.translation.y(), p.deltaStepY, p.maxChangeY);
   wanted_.rotation =
       approach(wanted_.rotation, desired.rotation, closed(p.deltaStepTheta), p.maxChangeTheta * cycles);
   if (!walk && w.cwiseAbs().maxCoeff() < kStepTolerance && std::abs(wanted_.rotation) < kStepTolerance) {
@@ -121,7 +127,28 @@ void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
   }
   // err_norm and err_max of AAAI 2012: a large error of the centre of mass shrinks the steps.
   const double range = std::max(p.errMax - p.errNorm, 1e-6);
+  const Vector2 before = step_.translation;
   step_ = scaled(wanted_, std::clamp((p.errMax - trace_.comError) / range, 0.0, 1.0));
+  updateAcceleration(step_.translation - before, cycles);
+}
+
+// In the walk frame: the change of speed, and that of its direction in a curve.
+void WalkEngine::updateAcceleration(const Vector2& stepChange, double cycles) {
+  if (cycles <= 0.0) return;  // the first message of all
+  const WalkParameters& p = parameters_;
+  const double turnRate = step_.rotation / stepTime();
+  const Vector2 speed = step_.translation / stepTime();
+  const Vector2 commanded =
+      stepChange / (stepTime() * kCycleTime * cycles) + turnRate * Vector2(-speed.y(), speed.x());
+  acceleration_ += (1.0 - std::pow(1.0 - p.accelerationFilter, cycles)) * (commanded - acceleration_);
+}
+
+// The attitude that the torso should have.
+WalkEngine::Lean WalkEngine::lean() const {
+  const WalkParameters& p = parameters_;
+  const Vector2 tilt = acceleration_ / kGravity;
+  return {.pitch = p.torsoPitch + p.torsoPitchStep * step_.translation.x() + p.accelerationPitch * tilt.x(),
+          .roll = -p.torsoRollStep * step_.translation.y() - p.accelerationRoll * tilt.y()};
 }
 
 void WalkEngine::advancePhase(double cycleTime, bool walk, const Pose2& speed, const Tilt& tilt) {
@@ -166,7 +193,8 @@ void WalkEngine::moveSwingFoot(const Tilt& tilt) {
   const double sign = sideSign(swing);
   // Half a step ahead of where the walk frame will be at the landing; the other half follows while the foot
   // is stance foot.
-  const double side = sign * (0.5 * p.ySep + p.turnOut * std::abs(step_.rotation));
+  const double wider = p.turnOut * std::abs(step_.rotation) + p.sideOut * std::abs(step_.translation.y());
+  const double side = sign * (0.5 * p.ySep + wider);
   const double outwards = sign * (p.footYaw + p.turnYaw * std::abs(step_.rotation));
   Pose2 landing =
       scaled(step_, 1.0 - phase_) *
@@ -212,19 +240,19 @@ void WalkEngine::footPoses(const Tilt& tilt, FootPoses& feet) const {
   const double liftShare = lift();
   const double middle = std::sin(kPi * std::clamp(phase_, 0.0, 1.0));
   const double height = p.zTorso * model_->standingHeight();
-  const double pitch = p.torsoPitch + p.torsoPitchStep * step_.translation.x() - p.hipPitchGain * tilt.pitch -
-                       p.hipPitchRateGain * tilt.pitchRate;
-  const double roll = p.torsoRollStep * -step_.translation.y() - p.hipRollGain * tilt.roll -
-                      p.hipRollRateGain * tilt.rollRate;
+  const Lean desired = lean();
+  const double pitch = desired.pitch - p.hipPitchGain * tilt.pitch - p.hipPitchRateGain * tilt.pitchRate;
+  const double roll = desired.roll - p.hipRollGain * tilt.roll - p.hipRollRateGain * tilt.rollRate;
+  const Vector2 shift = p.pendulumHeight / kGravity * acceleration_;
   const Matrix3 R_RL = tiltRotation(pitch, roll).transpose();
   for (const Side side : {Side::Left, Side::Right}) {
     const bool swings = mode_ != Mode::Standing && side != stance_;
     const Pose2& foot = feet_[index(side)];
     Vector3 p_LS;
     p_LS.x() = foot.translation.x() - torso.x() + p.xOffset - p.xFactor * step_.translation.x() +
-               p.comGainX * comOffset_.x();
-    p_LS.y() =
-        foot.translation.y() - torso.y() - p.yFactor * step_.translation.y() + p.comGainY * comOffset_.y();
+               p.comGainX * comOffset_.x() - p.accelerationShiftX * shift.x();
+    p_LS.y() = foot.translation.y() - torso.y() - p.yFactor * step_.translation.y() +
+               p.comGainY * comOffset_.y() - p.accelerationShiftY * shift.y();
     p_LS.z() = -height;
     double footPitch = p.footPitch;
     double footRoll = sideSign(side) * p.footRoll;
@@ -257,9 +285,9 @@ WalkEngine::Tilt WalkEngine::tiltError(const world::BodyState& body) const {
   Tilt tilt;
   tilt.pitchRate = body.gyro.y();
   tilt.rollRate = body.gyro.x();
-  tilt.pitch =
-      body.pitch + p.tiltDelay * tilt.pitchRate - p.torsoPitch - p.torsoPitchStep * step_.translation.x();
-  tilt.roll = body.roll + p.tiltDelay * tilt.rollRate + p.torsoRollStep * step_.translation.y();
+  const Lean desired = lean();
+  tilt.pitch = body.pitch + p.tiltDelay * tilt.pitchRate - desired.pitch;
+  tilt.roll = body.roll + p.tiltDelay * tilt.rollRate - desired.roll;
   return tilt;
 }
 
@@ -267,8 +295,7 @@ WalkEngine::Tilt WalkEngine::tiltError(const world::BodyState& body) const {
 void WalkEngine::measureComError(const world::BodyState& body, const model::JointArray& commanded) {
   const WalkParameters& p = parameters_;
   model::forwardKinematics(*model_, commanded, commandedBodies_);
-  const double pitch = p.torsoPitch + p.torsoPitchStep * step_.translation.x();
-  const double roll = -p.torsoRollStep * step_.translation.y();
+  const auto [pitch, roll] = lean();
   comOffset_ = tiltRotation(pitch, roll) * model::centerOfMass(*model_, commandedBodies_);
 
   historyEnd_ = (historyEnd_ + 1) % kHistory;

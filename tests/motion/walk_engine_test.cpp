@@ -275,6 +275,65 @@ TEST(WalkEngine, NothingJumpsWhenSpeedOrSetChange) {
   }
 }
 
+// The first message of all ends no cycle: it must leave nothing in the engine that is not a number.
+TEST(WalkEngine, SurvivesCyclesOfNoLength) {
+  Walker walker(0);
+  walker.body.cycleTime = 0.0;
+  walker.step(Pose2(0.3, 0.1, 0.5));
+  walker.body.cycleTime = kCycleTime;
+  walker.run(Pose2(0.3, 0.1, 0.5), 50);
+  for (const double angle : walker.targets.angles) EXPECT_TRUE(std::isfinite(angle));
+  EXPECT_GT(walker.X_FW.translation.norm(), 0.05);
+}
+
+// With half of the side step between the feet the closing foot comes beside the other one, never across it.
+TEST(WalkEngine, SideStepsDoNotCrossTheFeet) {
+  for (const double sideOut : {0.0, 0.5}) {
+    WalkParameters parameters;
+    parameters.sideOut = sideOut;
+    parameters.fS = 0.0;
+    parameters.fM = 1.0;
+    Walker walker(0, parameters);
+    walker.run(Pose2(0.0, 0.3, 0.0), 100);
+    double nearest = 1.0;
+    for (int i = 0; i < 100; ++i) {
+      walker.step(Pose2(0.0, 0.3, 0.0));
+      nearest = std::min(
+          nearest, walker.sole(Side::Left).translation().y() - walker.sole(Side::Right).translation().y());
+    }
+    const double step = 0.3 * WalkEngine::stepTime(parameters);
+    EXPECT_NEAR(nearest, parameters.ySep - (1.0 - 2.0 * sideOut) * step, 1e-6) << sideOut;
+  }
+}
+
+// A pendulum of height h that accelerates by a leans h a / g ahead of its foot; in a curve a = v w inwards.
+TEST(WalkEngine, TorsoShiftsIntoTheCurve) {
+  const Pose2 speed(0.3, 0.0, 0.8);
+  const auto middleOfFeet = [&](double shift, double roll) {
+    WalkParameters parameters;
+    parameters.accelerationShiftY = shift;
+    parameters.accelerationRoll = roll;
+    parameters.combineExponent = 20.0;
+    parameters.stepRollGain = parameters.swingLevelGain = 0.0;  // this body stays upright: no feedback
+    Walker walker(0, parameters);
+    walker.run(speed, 200);
+    Vector3 sum = Vector3::Zero();
+    const int whole = 2 * static_cast<int>(std::lround(WalkEngine::stepTime(parameters) / kCycleTime));
+    for (int i = 0; i < whole; ++i) {
+      walker.step(speed);
+      sum += 0.5 * (walker.sole(Side::Left).translation() + walker.sole(Side::Right).translation());
+    }
+    return Vector3(sum / whole);
+  };
+  const WalkParameters parameters;
+  const double expected = parameters.pendulumHeight / kGravity * 0.3 * 0.8;
+  const Vector3 upright = middleOfFeet(0.0, 0.0);
+  EXPECT_NEAR(middleOfFeet(1.0, 0.0).y(), upright.y() - expected, 1e-6) << "turns left, so the torso is left";
+  const double angle = 0.3 * 0.8 / kGravity;
+  const Vector3 leaning = middleOfFeet(0.0, 1.0);
+  EXPECT_NEAR(leaning.y(), upright.y() * std::cos(angle) - upright.z() * std::sin(angle), 1e-6);
+}
+
 // Outside what a physical reading would allow nothing breaks: finite angles within the limits for random sets
 // from the whole declared ranges.
 TEST(WalkEngine, SurvivesEverySetWithinTheRanges) {

@@ -54,6 +54,9 @@ struct CourseOptions {
   int mostFalls = 100;  // then the rest of the course is not walked (and earns nothing)
   /// Every target is walked to until it is reached (30 s at most): what counts is CourseResult::time.
   bool untilReached = false;
+  double fallCost = 5.0;  // of reward
+  /// Now and then all of the robot gets a velocity, m/s, at most this: what bodies in a duel do.
+  double push = 0.0;
 };
 
 CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options);

@@ -68,8 +68,15 @@ class WalkEngine {
     double rollRate = 0.0;
   };
 
+  struct Lean {
+    double pitch = 0.0;
+    double roll = 0.0;
+  };
+
   void advancePhase(double cycleTime, bool walk, const Pose2& speed, const Tilt& tilt);
   void updateStepSize(double cycles, const Pose2& speed, bool walk);
+  void updateAcceleration(const Vector2& stepChange, double cycles);
+  Lean lean() const;
   void moveFrame(double cycleTime);
   void moveSwingFoot(const Tilt& tilt);
   void placeFeet();
@@ -86,10 +93,11 @@ class WalkEngine {
   Mode mode_ = Mode::Standing;
   double phase_ = 1.0;
   model::Side stance_ = model::Side::Left;
-  Pose2 wanted_;               // step size filtered, m, m, rad
-  Pose2 step_;                 // the same after the brake for errors
-  std::array<Pose2, 2> feet_;  // X_WS, soles on the ground plane
-  Pose2 swingStart_;           // X_WS of the swing foot at the begin of the step
+  Pose2 wanted_;                            // step size filtered, m, m, rad
+  Pose2 step_;                              // the same after the brake for errors
+  Vector2 acceleration_ = Vector2::Zero();  // as commanded, filtered, m/s^2
+  std::array<Pose2, 2> feet_;               // X_WS, soles on the ground plane
+  Pose2 swingStart_;                        // X_WS of the swing foot at the begin of the step
   bool feetPlaced_ = false;
   int stepsDone_ = 0;     // since the stand
   int stepsInPlace_ = 0;  // consecutive, while stopping

@@ -23,6 +23,7 @@ struct WalkParameters {
   double maxChangeX = 0.004;
   double maxChangeY = 0.004;
   double maxChangeTheta = 0.03;
+  double brake = 1.0;
   // Pendulum and torso
   double phiLength = 0.12;
   double zTorso = 0.88;
@@ -36,6 +37,11 @@ struct WalkParameters {
   double torsoPitch = 0.0;
   double torsoPitchStep = 0.0;
   double torsoRollStep = 0.0;
+  double accelerationFilter = 0.3;
+  double accelerationShiftX = 0.0;
+  double accelerationShiftY = 0.0;
+  double accelerationPitch = 0.0;
+  double accelerationRoll = 0.0;
   double comGainX = 0.0;
   double comGainY = 0.0;
   // Feet
@@ -54,6 +60,7 @@ struct WalkParameters {
   double footYaw = 0.0;
   double turnYaw = 0.5;
   double turnOut = 0.0;
+  double sideOut = 0.0;
   double startLift = 0.5;
   // Feedback
   double errNorm = 0.03;
@@ -136,6 +143,12 @@ struct WalkParameters {
     visit({"maxChangeY", Unit::Metre, {0.0, 0.3}, search(0.001, 0.03), "The same sideways"}, self.maxChangeY);
     visit({"maxChangeTheta", Unit::Radian, {0.0, 1.5}, search(0.01, 0.3), "The same for turning"},
           self.maxChangeTheta);
+    visit({"brake",
+           Unit::None,
+           {0.05, 5.0},
+           search(0.3, 1.5),
+           "Factor on delta_step and the largest change of translation while the step shrinks"},
+          self.brake);
   }
 
   template <class Self, class Visitor>
@@ -197,6 +210,32 @@ struct WalkParameters {
            search(-3.0, 3.0),
            "Lean to the side in rad per metre of side step"},
           self.torsoRollStep);
+    visit({"accelerationFilter",
+           Unit::None,
+           {0.01, 1.0},
+           search(0.1, 1.0),
+           "Share of the gap to the commanded acceleration closed in a cycle"},
+          self.accelerationFilter);
+    visit({"accelerationShiftX",
+           Unit::None,
+           {-5.0, 5.0},
+           search(-1.0, 2.0),
+           "Torso ahead as this acceleration asks of a pendulum: 0 = not, 1 = wholly"},
+          self.accelerationShiftX);
+    visit({"accelerationShiftY",
+           Unit::None,
+           {-5.0, 5.0},
+           search(-1.0, 2.0),
+           "The same sideways, towards the inside of a curve"},
+          self.accelerationShiftY);
+    visit({"accelerationPitch",
+           Unit::None,
+           {-5.0, 5.0},
+           search(-1.0, 2.0),
+           "Lean into it: 1 = along gravity and acceleration together"},
+          self.accelerationPitch);
+    visit({"accelerationRoll", Unit::None, {-5.0, 5.0}, search(-1.0, 2.0), "The same sideways"},
+          self.accelerationRoll);
     visit({"comGainX",
            Unit::None,
            {-1.0, 2.0},
@@ -260,6 +299,12 @@ struct WalkParameters {
           self.turnYaw);
     visit({"turnOut", Unit::Metre, {-0.3, 0.3}, search(-0.03, 0.05), "Wider feet per radian of turn"},
           self.turnOut);
+    visit({"sideOut",
+           Unit::None,
+           {-1.0, 2.0},
+           search(-0.2, 0.6),
+           "Wider feet per side step: with a half the closing foot comes beside the other one"},
+          self.sideOut);
     visit({"startLift", Unit::None, {0.0, 2.0}, search(0.0, 1.0), "Share of the lift in the first step"},
           self.startLift);
   }
