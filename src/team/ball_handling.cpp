@@ -40,6 +40,43 @@ Vector2 goalTarget(const world::WorldState& world) {
   return {goalX + 0.2, std::clamp(ball.y(), -inside, inside)};
 }
 
+// How much of the way is free of opponents: the distance of the nearest one from it, at most kLane.
+double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to) {
+  constexpr double kLane = 0.7;  // m, wider is not better
+  const Vector2 way = to - from;
+  const double squared = std::max(way.squaredNorm(), 1e-9);
+  double width = kLane;
+  for (const world::PlayerState& player : world.opponents) {
+    if (!player.known) continue;
+    const Vector2 offset = player.X_FP.translation - from;
+    const double along = std::clamp(offset.dot(way) / squared, 0.0, 1.0);
+    width = std::min(width, (offset - along * way).norm());
+  }
+  return width;
+}
+
+// The place between the posts that the opponents leave most open, as long as turning there is worth it.
+Vector2 openGoal(const world::WorldState& world) {
+  constexpr int kPlaces = 3;          // on either side of the middle
+  constexpr double kFromPost = 0.25;  // m
+  constexpr double kTurnCost = 0.15;  // m per rad
+  const double goalX = 0.5 * world.field.length;
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const double side = 0.5 * world.field.goalWidth - kFromPost;
+  Vector2 best(goalX + 0.2, 0.0);
+  double bestScore = -1e9;
+  for (int i = -kPlaces; i <= kPlaces; ++i) {
+    const Vector2 place(goalX + 0.2, side * i / kPlaces);
+    const Vector2 way = place - ball;
+    const double turn = std::abs(angleDifference(std::atan2(way.y(), way.x()), world.self.X_FR.rotation));
+    const double score = laneWidth(world, ball, place) - kTurnCost * turn - 0.05 * std::abs(place.y());
+    if (score <= bestScore) continue;
+    bestScore = score;
+    best = place;
+  }
+  return best;
+}
+
 // Of an opponent near the ball, how much it bars this direction, 0 .. 1.
 double barred(const world::WorldState& world, double direction) {
   constexpr double kReach = 1.5;  // m
@@ -70,7 +107,11 @@ Pose2 approachPose(const world::WorldState& world, const Vector2& p_FTarget, con
 }  // namespace
 
 Vector2 ballTarget(const world::WorldState& world) {
+  constexpr double kAtGoal = 3.5;  // m, from where a ball pushed aside would only end beside the goal
   const Vector2 ball = world.ball.p_FB.head<2>();
+  const Vector2 toGoal = Vector2(0.5 * world.field.length, 0.0) - ball;
+  const bool inFront = std::abs(toGoal.y()) < toGoal.x() + 0.5 * world.field.goalWidth - 0.3;
+  if (toGoal.norm() < kAtGoal && inFront) return openGoal(world);
   Vector2 target = goalTarget(world);
   const Vector2 way = target - ball;
   const double straight = std::atan2(way.y(), way.x());

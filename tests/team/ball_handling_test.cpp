@@ -73,5 +73,25 @@ TEST(BallTarget, LiesInTheGoalOrBringsTheBallBackToTheMiddle) {
   }
 }
 
+// Close to the goal the ball goes where the goalie is not, on whichever side that is; never beside the goal.
+TEST(BallTarget, AimsAtTheOpenPartOfTheGoal) {
+  Random random(11);
+  for (int trial = 0; trial < 500; ++trial) {
+    world::WorldState world;
+    const Vector2 ball(random.uniform(12.0, 13.5), random.uniform(-0.6, 0.6));
+    world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+    world.self.X_FR = Pose2(ball.x() - 0.3, ball.y(), 0.0);
+    world::PlayerState& goalie = world.opponents[1];
+    goalie.known = true;
+    const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
+    goalie.X_FP = Pose2(14.6, 0.55 * side, kPi);
+    const Vector2 target = ballTarget(world);
+    EXPECT_GT(target.x(), 15.0);
+    EXPECT_LT(std::abs(target.y()), 0.5 * world.field.goalWidth - 0.2);
+    EXPECT_LT(target.y() * side, 0.0)
+        << "goalie at " << goalie.X_FP.translation.y() << ", ball at " << ball.y();
+  }
+}
+
 }  // namespace
 }  // namespace nonet::team
