@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include <fmt/format.h>
 
 #include "nonet/motion/limbs.h"
 #include "nonet/motion/skill_language.h"
 
-#include "skill_lexer.h"
+#include "skill_reader.h"
 
 namespace nonet::motion {
 
@@ -34,22 +33,10 @@ constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm
                                                  {"ankleRoll", JointId::LLeg6},
                                                  {"toe", JointId::LLeg7}}};
 
-constexpr int kDeepest = 32;  // nesting of blocks, brackets and negations
-
-struct Value {
-  double number = 0.0;
-  Unit unit = Unit::None;
-  bool isZero() const { return number == 0.0; }
-};
-
-class Parser {
+class Parser : private SkillReader {
  public:
   Parser(std::string_view text, const std::string& file, const ParameterLookup& lookup)
-      : file_(file), lookup_(lookup) {
-    for (const SkillToken& token : lexSkills(text, file)) {
-      if (token.kind != Kind::Comment && token.kind != Kind::NewLine) tokens_.push_back(token);
-    }
-  }
+      : SkillReader(text, file), lookup_(lookup) {}
 
   std::vector<Skill> run() {
     std::vector<Skill> skills;
@@ -58,121 +45,12 @@ class Parser {
   }
 
  private:
-  // -- tokens
-  const SkillToken& peek() const { return tokens_[at_]; }
-  const SkillToken& take() {
-    const SkillToken& token = tokens_[at_];
-    if (token.kind != Kind::End) ++at_;
-    return token;
-  }
-  bool accept(std::string_view text) {
-    if (peek().kind == Kind::Number || peek().text != text || peek().kind == Kind::End) return false;
-    ++at_;
-    return true;
-  }
-  void expect(std::string_view text) {
-    if (!accept(text)) {
-      const std::string_view found = peek().kind == Kind::End ? "the end of the file" : peek().text;
-      fail(fmt::format("expected '{}', found '{}'", text, found));
-    }
-  }
-  std::string word(std::string_view what) {
-    if (peek().kind != Kind::Word) fail(fmt::format("expected {}", what));
-    return std::string(take().text);
-  }
-  [[noreturn]] void fail(const std::string& message) const { failAt(file_, peek(), message); }
-
-  // -- values
-  Value primary() {
-    const SkillToken& token = peek();
-    if (accept("(")) {
-      if (++depth_ > kDeepest) fail("nested too deeply");
-      const Value inner = sum();
-      --depth_;
-      expect(")");
-      return inner;
-    }
-    if (token.kind == Kind::Number) {
-      take();
-      return {token.value, token.unit};
-    }
-    if (token.kind == Kind::Word) {
-      const auto found = parameters_.find(token.text);
-      if (found == parameters_.end()) fail(fmt::format("unknown parameter '{}'", token.text));
-      take();
-      return found->second;
-    }
-    fail("expected a number or the name of a parameter");
-  }
-  Value signedValue() {
-    if (accept("-")) {
-      const Value inner = primary();
-      return {-inner.number, inner.unit};
-    }
-    return primary();
-  }
-  Value product() {
-    Value left = signedValue();
-    for (;;) {
-      if (accept("*")) {
-        const Value right = signedValue();
-        if (left.unit != Unit::None && right.unit != Unit::None) fail("one factor must be a plain number");
-        left = {left.number * right.number, left.unit == Unit::None ? right.unit : left.unit};
-      } else if (accept("/")) {
-        const Value right = signedValue();
-        if (right.isZero()) fail("division by zero");
-        if (right.unit != Unit::None && right.unit != left.unit)
-          fail("divide by a plain number or the same unit");
-        left = {left.number / right.number, right.unit == left.unit ? Unit::None : left.unit};
-      } else {
-        return left;
-      }
-    }
-  }
-  Value sum() {
-    Value left = product();
-    while (peek().text == "+" || peek().text == "-") {
-      const bool minus = take().text == "-";
-      const Value right = product();
-      if (left.unit != right.unit && !left.isZero() && !right.isZero()) fail("the units of a sum differ");
-      left = {minus ? left.number - right.number : left.number + right.number,
-              left.isZero() && left.unit == Unit::None ? right.unit : left.unit};
-    }
-    return left;
-  }
-  double value(Unit unit) {
-    const SkillToken& first = peek();
-    const Value result = sum();
-    if (result.unit != unit && !result.isZero()) {
-      failAt(file_, first,
-             unit == Unit::None ? std::string("a plain number is needed here")
-                                : fmt::format("a value in {} is needed here", config::unitName(unit)));
-    }
-    return result.number;
-  }
-  double positive(Unit unit) {
-    const SkillToken& first = peek();
-    const double result = value(unit);
-    if (!(result > 0.0)) failAt(file_, first, "must be more than zero");
-    return result;
-  }
-  Vector3 vector(Unit unit) {
-    Vector3 result;
-    expect("(");
-    for (int i = 0; i < 3; ++i) {
-      if (i > 0) expect(",");
-      result[i] = value(unit);
-    }
-    expect(")");
-    return result;
-  }
-
   // -- skills
   Skill parseSkill() {
     expect("skill");
     skill_ = Skill{};
-    parameters_.clear();
-    skill_.file = file_;
+    forgetNames();
+    skill_.file = file();
     skill_.name = word("the name of the skill");
     expect("{");
     while (accept("parameter")) parseParameter();
@@ -185,9 +63,9 @@ class Parser {
     const SkillToken nameToken = peek();
     SkillParameter parameter;
     parameter.name = word("the name of the parameter");
-    if (parameters_.count(parameter.name) > 0) failAt(file_, nameToken, "this parameter exists already");
+    if (isNamed(parameter.name)) failAt(nameToken, "this parameter exists already");
     expect("=");
-    const Value initial = sum();
+    const SkillValue initial = anyValue();
     parameter.value = initial.number;
     parameter.unit = initial.unit;
     if (accept("in")) {
@@ -195,14 +73,14 @@ class Parser {
       range.low = value(parameter.unit);
       expect("..");
       range.high = value(parameter.unit);
-      if (!(range.low < range.high)) failAt(file_, nameToken, "the range is empty");
+      if (!(range.low < range.high)) failAt(nameToken, "the range is empty");
       if (parameter.value < range.low || parameter.value > range.high) {
-        failAt(file_, nameToken, "the default lies outside the range");
+        failAt(nameToken, "the default lies outside the range");
       }
       parameter.range = range;
     }
     if (lookup_) parameter.value = lookup_(skill_.name, parameter.name).value_or(parameter.value);
-    parameters_[parameter.name] = {parameter.value, parameter.unit};
+    nameValue(parameter.name, {parameter.value, parameter.unit});
     skill_.parameters.push_back(std::move(parameter));
   }
 
@@ -217,9 +95,9 @@ class Parser {
 
   // Statements up to and including the closing bracket.
   void block() {
-    if (++depth_ > kDeepest) fail("nested too deeply");
+    enter();
     while (!accept("}")) statement();
-    --depth_;
+    leave();
   }
 
   void statement() {
@@ -276,7 +154,7 @@ class Parser {
         target(instruction);
       }
       if (!instruction.feet.empty() && instruction.feet.back().side == foot) {
-        failAt(file_, first, "this foot follows the curve; only the other one may have a target");
+        failAt(first, "this foot follows the curve; only the other one may have a target");
       }
     }
     const std::size_t count = instruction.points.size();
@@ -312,13 +190,13 @@ class Parser {
     const SkillToken first = peek();
     const std::string group = word("a joint (left.knee, both.elbow, head.pan), 'foot' or '}'");
     if (group != "left" && group != "right" && group != "both" && group != "head") {
-      failAt(file_, first, fmt::format("'{}' is no side (left right both head)", group));
+      failAt(first, fmt::format("'{}' is no side (left right both head)", group));
     }
     expect(".");
     const SkillToken nameToken = peek();
     const std::string name = word("the name of a joint");
     if (group == "head") {
-      if (name != "pan" && name != "tilt") failAt(file_, nameToken, "the head has the joints pan and tilt");
+      if (name != "pan" && name != "tilt") failAt(nameToken, "the head has the joints pan and tilt");
       const double angle = withAngle ? value(Unit::Radian) : 0.0;
       // Tilt is positive downwards here as in a head request; the joint is positive upwards.
       if (name == "pan") instruction.joints.push_back({JointId::Head1, angle});
@@ -327,7 +205,7 @@ class Parser {
     }
     const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
                                     [&](const JointWord& joint) { return joint.name == name; });
-    if (found == kLimbJoints.end()) failAt(file_, nameToken, fmt::format("unknown joint '{}'", name));
+    if (found == kLimbJoints.end()) failAt(nameToken, fmt::format("unknown joint '{}'", name));
     const double angle = withAngle ? value(Unit::Radian) : 0.0;
     const JointId right = model::mirrored(found->left);
     if (group != "right") instruction.joints.push_back({found->left, angle});
@@ -369,11 +247,11 @@ class Parser {
     const SkillToken first = peek();
     const double count = value(Unit::None);
     if (count < 1.0 || count > 1000.0 || count != static_cast<int>(count)) {
-      failAt(file_, first, "repeat needs a whole number from 1 to 1000");
+      failAt(first, "repeat needs a whole number from 1 to 1000");
     }
     const int begin = here();
     const int slot = skill_.loopSlots++;
-    if (skill_.loopSlots > 8) failAt(file_, first, "at most 8 repetitions in one skill");
+    if (skill_.loopSlots > 8) failAt(first, "at most 8 repetitions in one skill");
     expect("{");
     block();
     Instruction& loop = emit(Instruction::Kind::Loop);
@@ -392,8 +270,7 @@ class Parser {
     Instruction& instruction = emit(Instruction::Kind::Stiffness);
     const SkillToken first = peek();
     instruction.value = value(Unit::None);
-    if (instruction.value < 0.0 || instruction.value > 1.0)
-      failAt(file_, first, "stiffness lies between 0 and 1");
+    if (instruction.value < 0.0 || instruction.value > 1.0) failAt(first, "stiffness lies between 0 and 1");
     if (accept("{")) {
       while (!accept("}")) joints(instruction, false);
       return;
@@ -426,9 +303,9 @@ class Parser {
   int term() {
     using Node = ConditionNode::Kind;
     if (accept("not")) {
-      if (++depth_ > kDeepest) fail("nested too deeply");
+      enter();
       const int inner = term();
-      --depth_;
+      leave();
       return add({Node::Not, inner});
     }
     if (accept("upright")) return add({Node::Upright});
@@ -475,13 +352,8 @@ class Parser {
         peek().text));
   }
 
-  std::string file_;
   const ParameterLookup& lookup_;
-  std::vector<SkillToken> tokens_;
-  std::size_t at_ = 0;
-  int depth_ = 0;
   Skill skill_;
-  std::map<std::string, Value, std::less<>> parameters_;
 };
 
 }  // namespace

@@ -46,20 +46,21 @@ Toucher Referee::present(const Toucher& toucher) const {
 void Referee::updateBall() {
   BallState& ball = c_.ball;
   ball.touchers.clear();
-  for (const ContactPair& pair : c_.world.contacts()) {
-    const bool ballFirst = pair.first.kind == ContactParty::Kind::Ball;
-    const ContactParty& other = ballFirst ? pair.second : pair.first;
-    if ((!ballFirst && pair.second.kind != ContactParty::Kind::Ball) ||
-        other.kind != ContactParty::Kind::Robot) {
-      continue;
-    }
-    for (const Player& player : c_.players) {
-      if (player.robot != other.robot) continue;
-      const bool known = std::any_of(ball.touchers.begin(), ball.touchers.end(),
-                                     [&](const Toucher& t) { return t.agent == player.agent; });
-      if (!known) ball.touchers.push_back({player.agent, player.side, player.unum});
-    }
+  const auto touches = [this](const Player& player) {
+    const auto contacts = c_.world.contacts();
+    return std::any_of(contacts.begin(), contacts.end(), [&player](const ContactPair& pair) {
+      const bool ballFirst = pair.first.kind == ContactParty::Kind::Ball;
+      const ContactParty& ballParty = ballFirst ? pair.first : pair.second;
+      const ContactParty& other = ballFirst ? pair.second : pair.first;
+      return ballParty.kind == ContactParty::Kind::Ball && other.kind == ContactParty::Kind::Robot &&
+             other.robot == player.robot;
+    });
+  };
+  for (const Player& player : c_.players) {
+    if (touches(player)) ball.touchers.push_back({player.agent, player.side, player.unum});
   }
+  // Of several in one cycle the server takes the one with the lowest address in memory. That is most often
+  // the robot that was built first, and so it is always here.
   if (!ball.touchers.empty()) {
     ball.lastToucher = ball.touchers.front();
     ball.lastTouchTime = c_.game.time();

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
-#include <stdexcept>
 #include <vector>
 
 #include <asio/executor_work_guard.hpp>
@@ -20,6 +19,7 @@
 #include "nonet/sim/server_lobby.h"
 
 #include "server_connection.h"
+#include "server_monitors.h"
 
 namespace nonet::sim {
 
@@ -30,22 +30,6 @@ using asio::ip::tcp;
 
 constexpr auto kCycle = std::chrono::milliseconds(20);
 constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as silent
-constexpr std::size_t kMaxQueuedMessages =
-    64;  // of one connection; more are merged (agents) or wait (monitors)
-
-tcp::acceptor listenOn(asio::io_context& io, const std::string& address, std::uint16_t port,
-                       const char* purpose) {
-  try {
-    return tcp::acceptor(io, tcp::endpoint(asio::ip::make_address(address), port));  // with address reuse
-  } catch (const std::system_error& error) {
-    if (error.code() == asio::error::address_in_use) {
-      throw std::runtime_error(fmt::format(
-          "port {} (for {}) is taken: is another server running? Choose another port", port, purpose));
-    }
-    throw std::runtime_error(fmt::format("cannot listen on {} port {} (for {}): {}", address, port, purpose,
-                                         error.code().message()));
-  }
-}
 
 // Of equal effectors the last one counts, as within one message.
 void mergeInto(protocol::Effectors& earlier, const protocol::Effectors& later) {
@@ -85,19 +69,12 @@ struct AgentLink {
   }
 };
 
-struct MonitorLink {
-  std::shared_ptr<Connection> connection;
-  std::deque<std::string> commands;
-  bool needsFull = true;
-};
-
 }  // namespace
 
 struct Server::Implementation {
   Implementation(const Settings& settings, std::uint64_t seed, const ServerOptions& o);
 
   void acceptAgents();
-  void acceptMonitors();
   void agentMessage(AgentLink& link, std::string_view text);
   void lobbyMessage(AgentLink& link, const protocol::Effectors& message);
   void waitInLobby();
@@ -114,7 +91,6 @@ struct Server::Implementation {
   void noticeSilence();
   void reap();
   void executeTrainerCommands();
-  void sendMonitorMessages();
   bool matchIsOver();
 
   ServerOptions options;
@@ -123,11 +99,9 @@ struct Server::Implementation {
   asio::io_context io;
   asio::executor_work_guard<asio::io_context::executor_type> work;
   tcp::acceptor agentAcceptor;
-  tcp::acceptor monitorAcceptor;
+  Monitors monitors;
   asio::signal_set signals;
   std::vector<std::unique_ptr<AgentLink>> agents;
-  std::vector<std::unique_ptr<MonitorLink>> monitors;
-  MonitorStream stream;
   std::optional<MonitorLog> log;
   std::function<void(const Simulation&)> callback;
   Statistics statistics;
@@ -145,9 +119,8 @@ Server::Implementation::Implementation(const Settings& settings, std::uint64_t s
       simulation(settings, s),
       work(asio::make_work_guard(io)),
       agentAcceptor(listenOn(io, o.address, o.agentPort, "agents")),
-      monitorAcceptor(listenOn(io, o.address, o.monitorPort, "monitors")),
+      monitors(io, simulation, o.address, o.monitorPort),
       signals(io),
-      stream(simulation),
       lobbyOpen(o.players > 0) {
   if (!o.monitorLog.empty()) log.emplace(simulation, o.monitorLog);
   if (o.handleSignals) {
@@ -160,7 +133,6 @@ Server::Implementation::Implementation(const Settings& settings, std::uint64_t s
     });
   }
   acceptAgents();
-  acceptMonitors();
 }
 
 void Server::Implementation::acceptAgents() {
@@ -184,26 +156,6 @@ void Server::Implementation::acceptAgents() {
       spdlog::warn("server: could not accept an agent: {}", error.message());
     }
     acceptAgents();
-  });
-}
-
-void Server::Implementation::acceptMonitors() {
-  monitorAcceptor.async_accept([this](std::error_code error, tcp::socket socket) {
-    if (error == asio::error::operation_aborted) return;
-    if (!error) {
-      auto link = std::make_unique<MonitorLink>();
-      link->connection = std::make_shared<Connection>(std::move(socket));
-      MonitorLink& added = *link;
-      monitors.push_back(std::move(link));
-      spdlog::info("server: monitor {} connected", added.connection->peer());
-      // The only monitor starts the stream anew; others must not lose what they have.
-      added.needsFull = !added.connection->send(monitors.size() == 1 ? stream.next(true) : stream.full());
-      added.connection->start([&added](std::string_view message) { added.commands.emplace_back(message); },
-                              [&added] { return added.commands.size() >= kMaxQueuedMessages; });
-    } else {
-      spdlog::warn("server: could not accept a monitor: {}", error.message());
-    }
-    acceptMonitors();
   });
 }
 
@@ -300,7 +252,7 @@ void Server::Implementation::cycle() {
   ++cycles;
   noticeSilence();
   reap();
-  if (cycles % 2 == 0) sendMonitorMessages();
+  if (cycles % 2 == 0) statistics.droppedMessages += monitors.sendMessages();
   if (log) log->cycle();
   if (callback) callback(simulation);
   if (!options.endWithMatch || !matchIsOver()) return;
@@ -410,45 +362,13 @@ void Server::Implementation::reap() {
     simulation.disconnect(link->agent);
   }
   std::erase_if(agents, [](const auto& link) { return link->connection->dead(); });
-  for (const auto& link : monitors) {
-    if (!link->connection->dead()) continue;
-    spdlog::info("server: monitor {} is gone: {}", link->connection->peer(), link->connection->reason());
-  }
-  std::erase_if(monitors, [](const auto& link) { return link->connection->dead(); });
+  monitors.reap();
 }
 
 void Server::Implementation::executeTrainerCommands() {
-  if (cycles % 2 != 0) return;
-  for (const auto& link : monitors) {
-    while (!link->commands.empty()) {
-      if (!simulation.trainer(link->commands.front())) {
-        spdlog::info("server: ends by a trainer's command");
-        stopping = true;
-      }
-      link->commands.pop_front();
-    }
-    link->connection->resume();
-  }
-}
-
-void Server::Implementation::sendMonitorMessages() {
-  if (monitors.empty()) return;
-  const std::string& next = stream.next();
-  bool somebodyLags = false;
-  for (const auto& link : monitors) {
-    if (link->needsFull && !stream.lastWasFull()) {
-      somebodyLags = true;
-      continue;
-    }
-    link->needsFull = !link->connection->send(next);
-    if (link->needsFull) ++statistics.droppedMessages;
-  }
-  if (!somebodyLags) return;
-  // A difference that was lost cannot be made good by later ones.
-  const std::string& full = stream.full();
-  for (const auto& link : monitors) {
-    if (link->needsFull) link->needsFull = !link->connection->send(full);
-  }
+  if (cycles % 2 != 0 || monitors.executeCommands()) return;
+  spdlog::info("server: ends by a trainer's command");
+  stopping = true;
 }
 
 bool Server::Implementation::matchIsOver() {
@@ -462,14 +382,14 @@ Server::Server(const Settings& settings, std::uint64_t seed, const ServerOptions
 
 Server::~Server() {
   for (const auto& link : implementation_->agents) link->connection->close();
-  for (const auto& link : implementation_->monitors) link->connection->close();
+  implementation_->monitors.closeAll();
 }
 
 std::uint16_t Server::agentPort() const {
   return implementation_->agentAcceptor.local_endpoint().port();
 }
 std::uint16_t Server::monitorPort() const {
-  return implementation_->monitorAcceptor.local_endpoint().port();
+  return implementation_->monitors.port();
 }
 
 void Server::run() {
@@ -483,9 +403,9 @@ void Server::run() {
     }
   }
   for (const auto& link : self.agents) link->connection->close();
-  for (const auto& link : self.monitors) link->connection->close();
+  self.monitors.closeAll();
   self.agentAcceptor.close();
-  self.monitorAcceptor.close();
+  self.monitors.stopAccepting();
   self.signals.cancel();
   self.io.poll();
 }

@@ -1,5 +1,7 @@
 #include "server_connection.h"
 
+#include <stdexcept>
+
 #include <asio/buffer.hpp>
 #include <asio/error.hpp>
 #include <fmt/format.h>
@@ -15,6 +17,21 @@ std::string nameOf(const asio::ip::tcp::socket& socket) {
 }
 
 }  // namespace
+
+asio::ip::tcp::acceptor listenOn(asio::io_context& io, const std::string& address, std::uint16_t port,
+                                 const char* purpose) {
+  try {
+    return asio::ip::tcp::acceptor(
+        io, asio::ip::tcp::endpoint(asio::ip::make_address(address), port));  // with address reuse
+  } catch (const std::system_error& error) {
+    if (error.code() == asio::error::address_in_use) {
+      throw std::runtime_error(fmt::format(
+          "port {} (for {}) is taken: is another server running? Choose another port", port, purpose));
+    }
+    throw std::runtime_error(fmt::format("cannot listen on {} port {} (for {}): {}", address, port, purpose,
+                                         error.code().message()));
+  }
+}
 
 Connection::Connection(asio::ip::tcp::socket socket) : socket_(std::move(socket)), peer_(nameOf(socket_)) {
   std::error_code ignored;

@@ -7,11 +7,20 @@
 #include <string>
 #include <string_view>
 
+#include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 
 #include "nonet/protocol/framing.h"
 
 namespace nonet::sim {
+
+/// Of one connection; more are merged (agents) or wait (monitors).
+inline constexpr std::size_t kMaxQueuedMessages = 64;
+
+/// With address reuse. Throws std::runtime_error that names the port, and its purpose ("agents"), if it is
+/// taken.
+asio::ip::tcp::acceptor listenOn(asio::io_context& io, const std::string& address, std::uint16_t port,
+                                 const char* purpose);
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:

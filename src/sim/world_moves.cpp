@@ -1,6 +1,8 @@
 // Everything that changes poses and velocities from outside the physics.
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "sim/world_implementation.h"
 #include "sim/world_scene.h"
 
@@ -39,6 +41,16 @@ void setState(BodyNode& node, const World::BodyState& state) {
   wakeBody(node);
 }
 
+// Rotations are multiplied in 32 bits here, and only a step makes an orthonormal matrix of the product again.
+// A sleeping robot makes no step: the error of one placement goes into the next, doubles, and after some
+// fifty of them ODE ends the process. Errors of a single placement are left as they are, as in the server.
+Eigen::Matrix3f withoutDrift(const Eigen::Matrix3f& rotation) {
+  constexpr float kDrift = 1e-5F;  // a hundred times the error of one product
+  const Eigen::Matrix3f error = rotation.transpose() * rotation - Eigen::Matrix3f::Identity();
+  if (error.cwiseAbs().maxCoeff() < kDrift) return rotation;
+  return Eigen::Quaternionf(rotation).normalized().toRotationMatrix();
+}
+
 }  // namespace
 
 void World::Implementation::moveRobot(RobotNode& robot, const Vector3f& position) {
@@ -61,7 +73,7 @@ void World::Implementation::placeRobot(RobotNode& robot, const Vector3f& positio
   for (BodyNode& body : robot.bodies) {
     const Vector3f place = scene::fromOde(dBodyGetPosition(body.body));
     const Eigen::Matrix3f rotation =
-        scene::multiply(turn, scene::rotationFromOde(dBodyGetRotation(body.body)));
+        withoutDrift(scene::multiply(turn, scene::rotationFromOde(dBodyGetRotation(body.body))));
     const Vector3f target = position + scene::rotate(turn, place - origin);
     dBodySetPosition(body.body, target.x(), target.y(), target.z());
     stop(body.body);

@@ -23,6 +23,17 @@ inline Settings quietSettings() {
   return settings;
 }
 
+inline Settings shortHalves(double seconds) {
+  Settings settings = quietSettings();
+  settings.ruleHalfTime = seconds;
+  return settings;
+}
+
+/// The mode of this side, of two that follow each other: left's, right's.
+constexpr PlayMode forSide(TeamSide side, PlayMode left) {
+  return side == TeamSide::Left ? left : static_cast<PlayMode>(static_cast<int>(left) + 1);
+}
+
 class Scenario {
  public:
   explicit Scenario(const Settings& settings = quietSettings(), std::uint64_t seed = 1)
@@ -47,6 +58,12 @@ class Scenario {
       if (info.handle == agent) return info;
     }
     return {};
+  }
+  AgentHandle player(TeamSide side, int unum) const {
+    for (const AgentInfo& info : sim.agents()) {
+      if (info.side == side && info.unum == unum) return info.handle;
+    }
+    return kNoAgent;
   }
   Vector3f torso(AgentHandle agent) const {
     return sim.world().bodyPosition(info(agent).robot, model::BodyId::Torso);
@@ -97,6 +114,57 @@ class Scenario {
   }
 
   Simulation sim;
+};
+
+/// PlayOn with two players of each team, away from everything: left 2 and 3, right 2 and 3.
+struct Match : Scenario {
+  explicit Match(const Settings& settings = quietSettings()) : Scenario(settings) {
+    left2 = add(TeamSide::Left, 2);
+    left3 = add(TeamSide::Left, 3);
+    right2 = add(TeamSide::Right, 2);
+    right3 = add(TeamSide::Right, 3);
+    setMode(PlayMode::PlayOn);
+    place(left2, -8.0, 5.0);
+    place(left3, -8.0, -5.0);
+    place(right2, 8.0, 5.0, 180.0);
+    place(right3, 8.0, -5.0, 180.0);
+    placeBall(0.0, 0.0);
+    step(2);
+  }
+  AgentHandle second(TeamSide side) const { return side == TeamSide::Left ? left2 : right2; }
+  /// `by` touches the ball and it lies at (x, y) afterwards.
+  void ballFrom(AgentHandle by, double x, double y) {
+    touch(by);
+    step();
+    placeBall(x, y);
+    step();
+  }
+
+  AgentHandle left2, left3, right2, right3;
+};
+
+/// PlayOn with players of the test's choice, the ball far from everybody.
+struct Field : Scenario {
+  explicit Field(const Settings& settings = quietSettings()) : Scenario(settings) {}
+  void play(double ballX = 0.0, double ballY = 8.0) {
+    setMode(PlayMode::PlayOn);
+    placeBall(ballX, ballY);
+    step(2);
+  }
+  /// Holds a robot with its torso at this height, as if it lay or knelt there.
+  void holdAt(AgentHandle agent, double z, double time) {
+    const Vector3f at = torso(agent);
+    for (int i = 0; i < time / 0.02; ++i) {
+      if (torso(agent).z() > 0.9F) return;  // the referee has taken it
+      moveTo(agent, at.x(), at.y(), z);
+      step();
+    }
+  }
+  void moveTo(AgentHandle agent, double x, double y, double z) {
+    const AgentInfo who = info(agent);
+    command(fmt::format("(agent (team {})(unum {})(pos {} {} {}))",
+                        who.side == TeamSide::Left ? "Left" : "Right", who.unum, x, y, z));
+  }
 };
 
 }  // namespace nonet::sim::test

@@ -332,6 +332,22 @@ TEST(World, SleepingRobotHoversWhenItIsMoved) {
   EXPECT_LT(world.bodyPose(robot, BodyId::Torso).position.z(), 0.4F);
 }
 
+// As an agent does that beams in every cycle before kick-off and moves no joint.
+TEST(World, ASleepingRobotMayBePlacedAgainAndAgain) {
+  World world;
+  const RobotHandle robot = world.addRobot(0);
+  for (int i = 0; i < 1000; ++i) {
+    if (i == 150) {
+      ASSERT_TRUE(world.isAsleep(robot));
+    }
+    if (i == 0 || i >= 150) world.placeRobot(robot, {0.0F, 0.0F, 0.385F}, i % 2 == 0 ? 90.0F : 33.0F);
+    step(world);
+  }
+  const Eigen::Matrix3f& rotation = world.bodyPose(robot, BodyId::LFoot).rotation;
+  EXPECT_NEAR((rotation.transpose() * rotation - Eigen::Matrix3f::Identity()).norm(), 0.0F, 1e-4F);
+  EXPECT_NEAR(rotation(2, 2), 1.0F, 0.01F) << "the foot is still flat";
+}
+
 // Server facts 2.6: the accelerometer shows the change of velocity of the step before the newest one.
 TEST(World, AccelerometerIsOneCycleOld) {
   World world;

@@ -29,7 +29,7 @@ struct BallState {
   World::Goal goal = World::Goal::None;
   Toucher lastToucher;  // agent is kNoAgent while nobody has ever touched the ball
   float lastTouchTime = 0.0F;
-  std::vector<Toucher> touchers;  // in this cycle, in the order of the contacts
+  std::vector<Toucher> touchers;  // in this cycle, in connection order
 
   bool touchedBy(TeamSide side) const {
     for (const Toucher& toucher : touchers) {

@@ -1,0 +1,136 @@
+#include "skill_reader.h"
+
+#include <fmt/format.h>
+
+namespace nonet::motion {
+
+using config::Unit;
+using Kind = SkillToken::Kind;
+
+SkillReader::SkillReader(std::string_view text, const std::string& file) : file_(file) {
+  for (const SkillToken& token : lexSkills(text, file)) {
+    if (token.kind != Kind::Comment && token.kind != Kind::NewLine) tokens_.push_back(token);
+  }
+}
+
+const SkillToken& SkillReader::take() {
+  const SkillToken& token = tokens_[at_];
+  if (token.kind != Kind::End) ++at_;
+  return token;
+}
+
+bool SkillReader::accept(std::string_view text) {
+  if (peek().kind == Kind::Number || peek().text != text || peek().kind == Kind::End) return false;
+  ++at_;
+  return true;
+}
+
+void SkillReader::expect(std::string_view text) {
+  if (accept(text)) return;
+  const std::string_view found = peek().kind == Kind::End ? "the end of the file" : peek().text;
+  fail(fmt::format("expected '{}', found '{}'", text, found));
+}
+
+std::string SkillReader::word(std::string_view what) {
+  if (peek().kind != Kind::Word) fail(fmt::format("expected {}", what));
+  return std::string(take().text);
+}
+
+void SkillReader::failAt(const SkillToken& token, const std::string& message) const {
+  motion::failAt(file_, token, message);
+}
+
+void SkillReader::enter() {
+  constexpr int kDeepest = 32;
+  if (++depth_ > kDeepest) fail("nested too deeply");
+}
+
+SkillValue SkillReader::primary() {
+  const SkillToken& token = peek();
+  if (accept("(")) {
+    enter();
+    const SkillValue inner = anyValue();
+    leave();
+    expect(")");
+    return inner;
+  }
+  if (token.kind == Kind::Number) {
+    take();
+    return {token.value, token.unit};
+  }
+  if (token.kind == Kind::Word) {
+    const auto found = named_.find(token.text);
+    if (found == named_.end()) fail(fmt::format("unknown parameter '{}'", token.text));
+    take();
+    return found->second;
+  }
+  fail("expected a number or the name of a parameter");
+}
+
+SkillValue SkillReader::signedValue() {
+  if (!accept("-")) return primary();
+  const SkillValue inner = primary();
+  return {-inner.number, inner.unit};
+}
+
+SkillValue SkillReader::product() {
+  SkillValue left = signedValue();
+  for (;;) {
+    if (accept("*")) {
+      const SkillValue right = signedValue();
+      if (left.unit != Unit::None && right.unit != Unit::None) fail("one factor must be a plain number");
+      left = {left.number * right.number, left.unit == Unit::None ? right.unit : left.unit};
+    } else if (accept("/")) {
+      const SkillValue right = signedValue();
+      if (right.isZero()) fail("division by zero");
+      if (right.unit != Unit::None && right.unit != left.unit)
+        fail("divide by a plain number or the same unit");
+      left = {left.number / right.number, right.unit == left.unit ? Unit::None : left.unit};
+    } else {
+      return left;
+    }
+  }
+}
+
+// A sum of products.
+SkillValue SkillReader::anyValue() {
+  SkillValue left = product();
+  while (peek().text == "+" || peek().text == "-") {
+    const bool minus = take().text == "-";
+    const SkillValue right = product();
+    if (left.unit != right.unit && !left.isZero() && !right.isZero()) fail("the units of a sum differ");
+    left = {minus ? left.number - right.number : left.number + right.number,
+            left.isZero() && left.unit == Unit::None ? right.unit : left.unit};
+  }
+  return left;
+}
+
+double SkillReader::value(Unit unit) {
+  const SkillToken& first = peek();
+  const SkillValue result = anyValue();
+  if (result.unit != unit && !result.isZero()) {
+    failAt(first, unit == Unit::None ? std::string("a plain number is needed here")
+                                     : fmt::format("a value in {} is needed here", config::unitName(unit)));
+  }
+  return result.number;
+}
+
+double SkillReader::positive(Unit unit) {
+  const SkillToken& first = peek();
+  const double result = value(unit);
+  if (!(result > 0.0)) failAt(first, "must be more than zero");
+  return result;
+}
+
+Vector3 SkillReader::vector(Unit unit) {
+  Vector3 result;
+  expect("(");
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) expect(",");
+    result[i] = value(unit);
+  }
+  expect(")");
+  return result;
+}
+
+}  // namespace nonet::motion

@@ -1,0 +1,69 @@
+// What a parser of the skill language reads from its words: expected symbols, names, and values with units,
+// which are arithmetic over numbers and parameters.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nonet/config/parameters.h"
+#include "nonet/math/types.h"
+
+#include "skill_lexer.h"
+
+namespace nonet::motion {
+
+/// A number in SI units. A zero fits every unit.
+struct SkillValue {
+  double number = 0.0;
+  config::Unit unit = config::Unit::None;
+  bool isZero() const { return number == 0.0; }
+};
+
+/// All members throw SkillError where the text is not what they read.
+class SkillReader {
+ public:
+  /// Skips comments and line ends. `text` must outlive the reader.
+  SkillReader(std::string_view text, const std::string& file);
+
+  const std::string& file() const { return file_; }
+  const SkillToken& peek() const { return tokens_[at_]; }
+  const SkillToken& take();
+  /// Takes the next word if it is this one.
+  bool accept(std::string_view text);
+  void expect(std::string_view text);
+  /// A name; `what` says in the message which one is missing.
+  std::string word(std::string_view what);
+  [[noreturn]] void fail(const std::string& message) const { failAt(peek(), message); }
+  [[noreturn]] void failAt(const SkillToken& token, const std::string& message) const;
+
+  /// Blocks, brackets and negations nest only so deep.
+  void enter();
+  void leave() { --depth_; }
+
+  SkillValue anyValue();
+  double value(config::Unit unit);
+  double positive(config::Unit unit);
+  /// "(x, y, z)"
+  Vector3 vector(config::Unit unit);
+
+  /// Parameters stand for their values from here on.
+  void nameValue(const std::string& name, const SkillValue& value) { named_[name] = value; }
+  bool isNamed(const std::string& name) const { return named_.count(name) > 0; }
+  void forgetNames() { named_.clear(); }
+
+ private:
+  SkillValue primary();
+  SkillValue signedValue();
+  SkillValue product();
+
+  std::string file_;
+  std::vector<SkillToken> tokens_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+  std::map<std::string, SkillValue, std::less<>> named_;
+};
+
+}  // namespace nonet::motion
