@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "nonet/world/ball_law.h"
+
 #include "parallel.h"
 
 namespace nonet::lab {
@@ -26,11 +28,11 @@ constexpr double kBelief = 0.005;  // m, standard deviation of what the robot is
 constexpr float kBallRadius = 0.042F;  // m, server facts 3.3
 constexpr double kLongestKick = 3.0;   // s
 constexpr double kRollsOut = 8.0;      // s, for the ball
-constexpr double kSlow = 0.1;          // m/s: what is left is a few centimetres
+constexpr double kLasts = 1.0;         // s that the robot must stand after the skill
 constexpr double kMiss = 0.3;          // m
 
-Vector2 ballOf(RobotTrial& trial) {
-  return trial.physics().ballPosition().head<2>().cast<double>();
+world::BallMotion ballOf(RobotTrial& trial) {
+  return {trial.physics().ballPosition().cast<double>(), trial.physics().ballVelocity().cast<double>()};
 }
 
 }  // namespace
@@ -76,10 +78,11 @@ Kick kickFromStand(const TrialSetup& setup, Side side, std::uint64_t seed) {
   while (trial.time() - begin < kick.duration + kRollsOut) {
     trial.step(MotionRequest{});
     watch();
-    const bool settled = trial.time() - begin > kick.duration + 1.0;
-    if (settled && (kick.fell || trial.physics().ballVelocity().norm() < kSlow)) break;
+    const bool settled = trial.time() - begin > kick.duration + kLasts;
+    if (settled && (kick.fell || !world::isFlying(ballOf(trial)))) break;
   }
-  const Vector2 way = start.inverse() * ballOf(trial) - ball;
+  // The rest of a roll is certain.
+  const Vector2 way = start.inverse() * world::restPlace(ballOf(trial)) - ball;
   kick.forward = way.x();
   kick.aside = way.y();
   return kick;
