@@ -15,12 +15,14 @@ namespace {
 struct KickReportArguments {
   lab::AgentChoice choice;
   lab::KickReportSettings settings;
+  bool walking = false;
   bool json = false;
 };
 
 int run(const KickReportArguments& arguments) {
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
+  if (arguments.walking) settings.from = lab::KickFrom::Walk;
   settings.setup = lab::trialSetup(lab::makeAgentConfig(arguments.choice, dataFolder()));
   const lab::KickReport report = lab::measureKicks(settings);
   fmt::print("{}", arguments.json ? lab::kickReportJson(report) : lab::kickReportTable(report));
@@ -30,8 +32,7 @@ int run(const KickReportArguments& arguments) {
 }  // namespace
 
 void addKickReportCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command =
-      app.add_subcommand("kick-report", "Measure seeded kicks from the stand: distance, direction, falls");
+  CLI::App* command = app.add_subcommand("kick-report", "Measure seeded kicks: distance, direction, falls");
   const auto arguments = std::make_shared<KickReportArguments>();
   command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
   command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
@@ -40,6 +41,7 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
   command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
+  command->add_flag("--walking", arguments->walking, "Out of slow steps instead of from the stand");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }

@@ -35,6 +35,20 @@ world::BallMotion ballOf(RobotTrial& trial) {
   return {trial.physics().ballPosition().cast<double>(), trial.physics().ballVelocity().cast<double>()};
 }
 
+void putBall(RobotTrial& trial, const Vector2& place) {
+  trial.physics().setBallPosition(
+      sim::Vector3f(static_cast<float>(place.x()), static_cast<float>(place.y()), kBallRadius));
+  trial.physics().setBallVelocity(sim::Vector3f::Zero());
+}
+
+// The last steps to a ball: slow, in any direction.
+void walkAbout(RobotTrial& trial, Random& random) {
+  MotionRequest walk;
+  walk.kind = MotionRequest::Kind::WalkVelocity;
+  walk.velocity = Pose2(random.uniform(-0.1, 0.2), random.uniform(-0.15, 0.15), random.uniform(-0.5, 0.5));
+  trial.run(walk, random.uniform(1.0, 2.0));
+}
+
 }  // namespace
 
 bool Kick::missed() const {
@@ -44,21 +58,16 @@ double Kick::direction() const {
   return std::atan2(aside, forward);
 }
 
-Kick kickFromStand(const TrialSetup& setup, Side side, std::uint64_t seed) {
+Kick kickOnce(const TrialSetup& setup, Side side, KickFrom from, std::uint64_t seed) {
   TrialSetup own = setup;
   own.seed = seed;
   RobotTrial trial(own);
   Random random(seed);
   trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
-  const Pose2 start = trial.pose();
   const double sign = side == Side::Left ? 1.0 : -1.0;
   const Vector2 ball(kAhead + random.uniform(-kAheadSpread, kAheadSpread),
                      sign * (kAside + random.uniform(-kAsideSpread, kAsideSpread)));
-  const Vector2 place = start * ball;
-  trial.physics().setBallPosition(
-      sim::Vector3f(static_cast<float>(place.x()), static_cast<float>(place.y()), kBallRadius));
-  trial.physics().setBallVelocity(sim::Vector3f::Zero());
-
+  if (from == KickFrom::Walk) walkAbout(trial, random);
   MotionRequest request;
   request.kind = MotionRequest::Kind::Kick;
   request.side = side;
@@ -70,8 +79,15 @@ Kick kickFromStand(const TrialSetup& setup, Side side, std::uint64_t seed) {
     kick.ballSpeed = std::max(kick.ballSpeed, static_cast<double>(trial.physics().ballVelocity().norm()));
     kick.fell = kick.fell || trial.down();
   };
+  Pose2 start;
+  bool begun = false;
   while (trial.time() - begin < kLongestKick && !trial.motion().state().skillFinished) {
+    if (!begun) {
+      start = trial.pose();
+      putBall(trial, start * ball);  // until the kick begins it lies where it should, wherever the feet go
+    }
     trial.step(request);
+    begun = begun || trial.motion().state().busy;
     watch();
   }
   kick.duration = trial.time() - begin;
@@ -123,8 +139,9 @@ KickReport measureKicks(const KickReportSettings& settings) {
   for (std::vector<Kick>& side : kicks) side.resize(static_cast<std::size_t>(settings.kicks));
   inParallel(2 * settings.kicks, settings.threads, [&](int i) {
     const auto side = static_cast<std::size_t>(i % 2);
-    kicks[side][static_cast<std::size_t>(i / 2)] = kickFromStand(
-        settings.setup, static_cast<Side>(side), seeds.fork(static_cast<std::uint64_t>(i)).next());
+    kicks[side][static_cast<std::size_t>(i / 2)] =
+        kickOnce(settings.setup, static_cast<Side>(side), settings.from,
+                 seeds.fork(static_cast<std::uint64_t>(i)).next());
   });
   return {statisticsOf(kicks[0]), statisticsOf(kicks[1])};
 }

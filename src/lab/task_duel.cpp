@@ -8,7 +8,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kFallCost = 20.0;  // rising takes two seconds, in which others have the ball
-constexpr double kPush = 0.6;       // m/s
+constexpr double kPush = 0.4;       // m/s
 
 class DuelTask final : public Task {
  public:

@@ -33,7 +33,7 @@ class KickTask final : public Task {
     double duration = 0.0;
     int failures = 0;
     for (const model::Side side : {model::Side::Left, model::Side::Right}) {
-      const Kick kick = kickFromStand(setup, side, random.next());
+      const Kick kick = kickOnce(setup, side, KickFrom::Stand, random.next());
       const bool failed = kick.fell || kick.missed();
       failures += failed ? 1 : 0;
       distance += kick.forward / kKicks;

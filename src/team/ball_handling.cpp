@@ -142,9 +142,9 @@ MotionRequest waitAtBall(const world::WorldState& world, const Vector2& p_FTarge
 }
 
 MotionRequest playBall(const world::WorldState& world, const Vector2& p_FTarget,
-                       const TeamParameters& parameters, KickUse use) {
+                       const TeamParameters& parameters, KickUse use, bool kicking) {
   if (world.ball.p_RB.norm() < parameters.ball.handleDistance)
-    return handleBall(world, p_FTarget, parameters.ball, use);
+    return handleBall(world, p_FTarget, parameters.ball, use, kicking);
   Caution caution;
   caution.robots = parameters.avoidDistance;
   caution.duel = true;
@@ -154,46 +154,100 @@ MotionRequest playBall(const world::WorldState& world, const Vector2& p_FTarget,
   return request;
 }
 
-MotionRequest handleBall(const world::WorldState& world, const Vector2& p_FTarget,
-                         const BallHandlingParameters& parameters, KickUse use) {
-  const Pose2& X_FR = world.self.X_FR;
-  const Vector2 ball = world.ball.p_RB;               // robot frame
-  const Vector2 target = X_FR.inverse() * p_FTarget;  // robot frame
-  const Vector2 way = target - ball;
-  const double direction = std::atan2(way.y(), way.x());  // in which the ball should go
-  const Vector2 along(std::cos(direction), std::sin(direction));
-  const Vector2 aside(-along.y(), along.x());
-  const double behind = ball.dot(along);   // how far the robot is behind the ball
-  const double besides = ball.dot(aside);  // the ball to the left of the line through the robot
+namespace {
 
-  const bool aligned = behind > 0.05 && std::abs(direction) < parameters.alignedAngle &&
-                       std::abs(besides) < parameters.alignedAside;
-  if (aligned) {
-    const double foot = std::abs(ball.y());
-    const bool inPlace = ball.x() > parameters.kickForwardLow && ball.x() < parameters.kickForwardHigh &&
-                         std::abs(foot - parameters.kickAside) < parameters.kickAsideTolerance;
-    const bool near = use == KickUse::Clear || way.norm() < parameters.kickRange;
-    if (parameters.kick && use != KickUse::Never && near && inPlace &&
-        std::abs(direction) < parameters.kickAngle && !opponentNear(world, parameters.kickOpponentDistance)) {
-      MotionRequest request;
-      request.kind = MotionRequest::Kind::Kick;
-      request.ball = ball;
-      request.target = Pose2(target, direction);
-      request.side = ball.y() > 0.0 ? model::Side::Left : model::Side::Right;
-      return request;
-    }
-    return walk(Pose2(ball + parameters.dribbleThrough * along, direction), false);
+// The ball as seen by a robot that should bring it somewhere, robot frame.
+struct Task {
+  Vector2 ball;
+  Vector2 target;
+  double direction = 0.0;  // in which the ball should go, rad
+  Vector2 along;
+  Vector2 aside;         // to the left of it
+  double behind = 0.0;   // how far the robot is behind the ball, m
+  double besides = 0.0;  // the ball to the left of the line through the robot, m
+};
+
+Task taskFor(const world::WorldState& world, const Vector2& p_FTarget) {
+  Task task;
+  task.ball = world.ball.p_RB;
+  task.target = world.self.X_FR.inverse() * p_FTarget;
+  const Vector2 way = task.target - task.ball;
+  task.direction = std::atan2(way.y(), way.x());
+  task.along = Vector2(std::cos(task.direction), std::sin(task.direction));
+  task.aside = Vector2(-task.along.y(), task.along.x());
+  task.behind = task.ball.dot(task.along);
+  task.besides = task.ball.dot(task.aside);
+  return task;
+}
+
+// While the robot comes to its stand for the kick it may drift a little.
+bool inPlace(const Task& task, const BallHandlingParameters& p, bool kicking) {
+  const double share = kicking ? 1.5 : 1.0;
+  return std::abs(task.ball.x() - p.kickAhead) < share * p.kickAheadTolerance &&
+         std::abs(std::abs(task.ball.y()) - p.kickAside) < share * p.kickAsideTolerance &&
+         std::abs(task.direction) < share * p.kickAngle;
+}
+
+bool mayKick(const world::WorldState& world, const Vector2& p_FTarget, const Task& task,
+             const BallHandlingParameters& p, KickUse use, bool kicking) {
+  constexpr double kLaneLength = 3.0;  // m
+  constexpr double kRolling = 0.3;     // m/s, a faster ball is not where it was when the foot comes
+  if (!p.kick || use == KickUse::Never || world.ball.v_FB.head<2>().norm() > kRolling) return false;
+  const bool begun = inPlace(task, p, kicking);
+  if (opponentNear(world, (begun ? 0.4 : 1.0) * p.kickOpponentDistance)) return false;
+  const Vector2 from = world.ball.p_FB.head<2>();
+  const Vector2 way = p_FTarget - from;
+  const Vector2 end = from + std::min(1.0, kLaneLength / std::max(way.norm(), 1e-6)) * way;
+  return use == KickUse::Clear || (begun && kicking) || laneWidth(world, from, end) > p.kickLane;
+}
+
+MotionRequest kick(const Task& task) {
+  MotionRequest request;
+  request.kind = MotionRequest::Kind::Kick;
+  request.ball = task.ball;
+  request.target = Pose2(task.target, task.direction);
+  request.side = task.ball.y() > 0.0 ? model::Side::Left : model::Side::Right;
+  return request;
+}
+
+// The last steps before a kick: to where the ball lies in front of the nearer foot, slowing down.
+MotionRequest lineUp(const Task& task, const BallHandlingParameters& p) {
+  constexpr double kMost = 0.8;  // m/s
+  const double foot = task.besides >= 0.0 ? 1.0 : -1.0;
+  const Vector2 place = task.ball - p.kickAhead * task.along - foot * p.kickAside * task.aside;
+  MotionRequest request;
+  request.kind = MotionRequest::Kind::WalkVelocity;
+  const Vector2 speed = p.kickGain * place;
+  request.velocity.translation = speed * std::min(1.0, kMost / std::max(speed.norm(), 1e-9));
+  request.velocity.rotation = p.kickGain * task.direction;
+  return request;
+}
+
+}  // namespace
+
+MotionRequest handleBall(const world::WorldState& world, const Vector2& p_FTarget,
+                         const BallHandlingParameters& parameters, KickUse use, bool kicking) {
+  const Task task = taskFor(world, p_FTarget);
+  if (mayKick(world, p_FTarget, task, parameters, use, kicking)) {
+    if (inPlace(task, parameters, kicking)) return kick(task);
+    const bool behind = task.behind > 0.5 * parameters.kickAhead &&
+                        std::abs(task.direction) < parameters.kickApproach &&
+                        std::abs(task.besides) < task.behind + parameters.kickAside;
+    if (behind) return lineUp(task, parameters);
   }
+  const bool aligned = task.behind > 0.05 && std::abs(task.direction) < parameters.alignedAngle &&
+                       std::abs(task.besides) < parameters.alignedAside;
+  if (aligned) return walk(Pose2(task.ball + parameters.dribbleThrough * task.along, task.direction), false);
 
   // Not behind the ball yet: go around it, on the side on which the robot already is. `behind` of the
   // approach point itself is behindBall, so half of it tells the two cases apart without flicker.
-  Vector2 next = ball - parameters.behindBall * along;
-  if (behind < 0.5 * parameters.behindBall) {
-    const double side = besides > 0.0 ? -1.0 : 1.0;
-    next = ball + side * parameters.circleRadius * aside - parameters.behindBall * along;
+  Vector2 next = task.ball - parameters.behindBall * task.along;
+  if (task.behind < 0.5 * parameters.behindBall) {
+    const double side = task.besides > 0.0 ? -1.0 : 1.0;
+    next += side * parameters.circleRadius * task.aside;
   }
   const bool far = next.norm() > 1.0;
-  return walk(Pose2(next, far ? std::atan2(next.y(), next.x()) : direction), false);
+  return walk(Pose2(next, far ? std::atan2(next.y(), next.x()) : task.direction), false);
 }
 
 }  // namespace nonet::team

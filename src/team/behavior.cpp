@@ -53,6 +53,7 @@ Intent Behavior::update(const WorldState& world, bool motionBusy) {
   } else if (phase != Phase::GameOver && phase != Phase::Other && !motionBusy) {
     play(world, intent);
   }
+  kicking_ = intent.motion.kind == MotionRequest::Kind::Kick;
   intent.say = radio_.update(world, tidings(world));
   return intent;
 }
@@ -141,7 +142,7 @@ void Behavior::fieldPlayer(const WorldState& world, Intent& intent) const {
   } else if (world::isOwnSetPiece(world.game.phase)) {
     intent.motion = ownSetPiece(world);
   } else if (role_ == Role::OnBall && mayTouch(world) && !goalieClaims(world)) {
-    intent.motion = playBall(world, ballTarget(world), parameters_, KickUse::Shot);
+    intent.motion = playBall(world, ballTarget(world), parameters_, KickUse::IfFree, kicking_);
   } else if (role_ == Role::OnBall) {
     // Ready beside the one who plays it.
     const Vector2 ball = world.ball.p_FB.head<2>();
@@ -187,7 +188,8 @@ MotionRequest Behavior::ownSetPiece(const WorldState& world) const {
         });
     const double waited = world.time - world.game.phaseSince;
     if (!ready && waited < parameters_.waitForReceiver) return waitAtBall(world, plan.p_FTarget, parameters_);
-    return playBall(world, plan.p_FTarget, parameters_, KickUse::Never);
+    const KickUse use = phase == Phase::OwnKickOff ? KickUse::Never : KickUse::Clear;
+    return playBall(world, plan.p_FTarget, parameters_, use, kicking_);
   }
   Vector2 place =
       role_ == Role::Stopper ? plan.p_FReceiver : formation_.positions[static_cast<std::size_t>(role_)];

@@ -20,7 +20,7 @@ TEST_P(Kicking, GoesFarAndStraightWithEitherFoot) {
   int good = 0;
   for (int i = 0; i < kKicks; ++i) {
     const auto side = static_cast<model::Side>(i % 2);
-    const Kick kick = kickFromStand(setup, side, static_cast<std::uint64_t>(i + 1));
+    const Kick kick = kickOnce(setup, side, KickFrom::Stand, static_cast<std::uint64_t>(i + 1));
     EXPECT_LT(kick.duration, 1.0);
     const bool straight = std::abs(kick.direction()) < toRadians(10.0);
     if (!kick.fell && straight && kick.forward > 2.5) ++good;

@@ -1,5 +1,6 @@
-// How far and how straight the robot kicks: seeded kicks from the stand, the ball some centimetres beside its
-// nominal place, on the exact in-process physics with the real motion code.
+// How far and how straight the robot kicks: seeded kicks from the stand or out of the last steps to the ball,
+// the ball some centimetres beside its nominal place, on the exact in-process physics with the real motion
+// code.
 #pragma once
 
 #include <array>
@@ -21,13 +22,16 @@ struct Kick {
   double direction() const;  // rad, positive to the left
 };
 
+enum class KickFrom : std::uint8_t { Stand, Walk };
+
 /// The same seed always gives the same kick. The motion stage is told the place of the ball with an error
 /// such as the world model's.
-Kick kickFromStand(const TrialSetup& setup, model::Side side, std::uint64_t seed);
+Kick kickOnce(const TrialSetup& setup, model::Side side, KickFrom from, std::uint64_t seed);
 
 struct KickReportSettings {
   TrialSetup setup;
   int kicks = 50;  // with each foot
+  KickFrom from = KickFrom::Stand;
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it
 };

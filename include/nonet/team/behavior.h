@@ -49,6 +49,7 @@ class Behavior {
   world::Phase lastPhase_ = world::Phase::Other;
   double lastBeam_ = world::kNever;  // server time, s
   bool beamed_ = false;
+  bool kicking_ = false;  // the last request was a kick
 };
 
 }  // namespace nonet::team

@@ -16,11 +16,13 @@ class Goalie {
   bool claimsBall() const { return claims_; }
 
  private:
+  motion::MotionRequest decide(const world::WorldState& world, bool mayTouch);
   bool dives(const world::WorldState& world, motion::MotionRequest& request) const;
   bool wantsBall(const world::WorldState& world) const;
 
   TeamParameters parameters_;
   bool claims_ = false;
+  bool kicking_ = false;  // the last request was a kick
 };
 
 }  // namespace nonet::team

@@ -62,13 +62,15 @@ struct BallHandlingParameters {
   double alignedAngle = 0.45;
   double alignedAside = 0.10;
   bool kick = true;
-  double kickForwardLow = 0.12;
-  double kickForwardHigh = 0.24;
+  double kickAhead = 0.18;
+  double kickAheadTolerance = 0.03;
   double kickAside = 0.055;
   double kickAsideTolerance = 0.03;
-  double kickAngle = 0.3;
-  double kickOpponentDistance = 1.0;
-  double kickRange = 3.0;
+  double kickAngle = 0.2;
+  double kickApproach = 1.2;
+  double kickGain = 5.0;
+  double kickOpponentDistance = 1.8;
+  double kickLane = 0.3;
   double handleDistance = 0.9;
   double waitBehind = 0.35;
 
@@ -99,10 +101,10 @@ struct BallHandlingParameters {
            "Dribble when the ball lies this near to the line"},
           self.alignedAside);
     visit({"kick", Unit::None, {0, 1}, fixed, "Whether to kick at all"}, self.kick);
-    visit({"kickForwardLow", Unit::Metre, {0, 1}, fixed, "Kick: ball at least this far ahead of the torso"},
-          self.kickForwardLow);
-    visit({"kickForwardHigh", Unit::Metre, {0, 1}, fixed, "Kick: ball at most this far ahead of the torso"},
-          self.kickForwardHigh);
+    visit({"kickAhead", Unit::Metre, {0, 1}, fixed, "Kick: ball this far ahead of the torso"},
+          self.kickAhead);
+    visit({"kickAheadTolerance", Unit::Metre, {0, 1}, fixed, "Kick: allowed error of kickAhead"},
+          self.kickAheadTolerance);
     visit({"kickAside",
            Unit::Metre,
            {0, 0.3},
@@ -112,14 +114,26 @@ struct BallHandlingParameters {
     visit({"kickAsideTolerance", Unit::Metre, {0, 0.3}, fixed, "Kick: allowed error of kickAside"},
           self.kickAsideTolerance);
     visit({"kickAngle", Unit::Radian, {0, 3.2}, fixed, "Kick: allowed error of the heading"}, self.kickAngle);
+    visit({"kickApproach",
+           Unit::Radian,
+           {0, 3.2},
+           search(0.5, 3.1),
+           "Kick: the last steps go straight to their place when the target lies within this angle"},
+          self.kickApproach);
+    visit({"kickGain", Unit::Hertz, {0.1, 20}, search(1, 8), "Kick: speed per distance in the last steps"},
+          self.kickGain);
     visit({"kickOpponentDistance",
            Unit::Metre,
            {0, 10},
-           fixed,
-           "Kick only when no opponent is nearer to the ball"},
+           search(0.3, 2.5),
+           "Kick only when no opponent is nearer to the ball; two fifths of it once in place"},
           self.kickOpponentDistance);
-    visit({"kickRange", Unit::Metre, {0, 30}, search(1, 8), "Shots: the goal is at most this far away"},
-          self.kickRange);
+    visit({"kickLane",
+           Unit::Metre,
+           {0, 2},
+           search(0.1, 0.8),
+           "Kick only when no opponent is nearer to the first metres of the ball's way"},
+          self.kickLane);
     visit({"handleDistance",
            Unit::Metre,
            {0.3, 3},
