@@ -43,7 +43,7 @@ binary=${NONET_BINARY:-$root/build/release/nonet}
 
 # Robot types by uniform number. Every prefix of this list satisfies the server's rules: at most 7 of one type, any
 # two types together at most 9, at least 3 different types.
-types=(0 4 4 1 1 2 3 4 4 2 3)
+types=(0 4 4 1 1 0 3 4 4 2 3)
 logs=${NONET_LOGS:-$root/logs}
 mkdir -p "$logs"
 pids=$logs/pids

@@ -8,6 +8,8 @@ namespace nonet::motion {
 
 namespace {
 
+constexpr double kKickRate = 0.35;  // rad/s, of the torso before a kick
+
 // Takes out the jump when another source of targets takes over: the difference to what was commanded last
 // fades away.
 class Transition {
@@ -47,7 +49,7 @@ struct Motion::Stages {
   enum class Mode : std::uint8_t { Walk, Skill, Fall };
 
   bool updateSkill(const world::WorldState& world, const MotionRequest& request);
-  bool startSkill(const MotionRequest& request);
+  bool startSkill(const world::WorldState& world, const MotionRequest& request);
   void updateWalk(const world::WorldState& world, const MotionRequest& request);
 
   MotionParameters parameters;
@@ -66,13 +68,15 @@ struct Motion::Stages {
   bool started = false;
 };
 
-// A skill or kick that has begun is played to its end. Kicks begin from the stand.
+// A skill or kick that has begun is played to its end. Kicks begin from a quiet stand.
 bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionRequest& request) {
   using Kind = MotionRequest::Kind;
   if (mode != Mode::Skill) {
     const bool wanted = request.kind == Kind::Skill || request.kind == Kind::Kick;
-    const bool same =
-        request.kind == pending.kind && request.skill == pending.skill && request.side == pending.side;
+    // A skill is played once for a request, however long it is made; a ball that still lies there is kicked
+    // again.
+    const bool same = request.kind == Kind::Skill && pending.kind == Kind::Skill &&
+                      request.skill == pending.skill && request.side == pending.side;
     if (!wanted) pending = MotionRequest{};
     if (!wanted || (skillDone && same)) {
       skillDone = skillDone && wanted;
@@ -80,7 +84,7 @@ bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionReq
     }
     skillDone = false;
     pending = request;
-    if (!startSkill(request)) return false;
+    if (!startSkill(world, request)) return false;
   }
   state.busy = true;
   if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
@@ -90,9 +94,9 @@ bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionReq
   return true;
 }
 
-bool Motion::Stages::startSkill(const MotionRequest& request) {
+bool Motion::Stages::startSkill(const world::WorldState& world, const MotionRequest& request) {
   const bool kick = request.kind == MotionRequest::Kind::Kick;
-  if (kick && !walk.standing()) return false;
+  if (kick && !(walk.standing() && world.body.gyro.norm() < kKickRate)) return false;
   const bool mirrored = request.side == model::Side::Right;
   const std::string_view name = kick ? std::string_view("kick_forward") : request.skill.view();
   std::optional<Vector2> ball;

@@ -10,8 +10,10 @@ using model::Side;
 namespace {
 
 // Steps smaller than this are none: a stand may follow.
-constexpr double kStepTolerance = 1e-3;  // m, rad
+constexpr double kStepTolerance = 5e-3;  // m
+constexpr double kTurnTolerance = 0.03;  // rad
 constexpr int kStepsBeforeStand = 2;     // in place, so that both feet have come home
+constexpr double kUprightTilt = 0.08;    // rad; a stand takes care of what sways less
 constexpr int kMostStepsInPlace = 25;    // then stand even with an error
 
 Pose2 scaled(const Pose2& pose, double factor) {
@@ -122,7 +124,7 @@ void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
   w.y() = change(w.y(), desired.translation.y(), p.deltaStepY, p.maxChangeY);
   wanted_.rotation =
       approach(wanted_.rotation, desired.rotation, closed(p.deltaStepTheta), p.maxChangeTheta * cycles);
-  if (!walk && w.cwiseAbs().maxCoeff() < kStepTolerance && std::abs(wanted_.rotation) < kStepTolerance) {
+  if (!walk && w.cwiseAbs().maxCoeff() < kStepTolerance && std::abs(wanted_.rotation) < kTurnTolerance) {
     wanted_ = Pose2{};
   }
   // err_norm and err_max of AAAI 2012: a large error of the centre of mass shrinks the steps.
@@ -165,7 +167,8 @@ void WalkEngine::advancePhase(double cycleTime, bool walk, const Pose2& speed, c
     ++stepsDone_;
     const bool inPlace = !walk && wanted_.translation.isZero() && wanted_.rotation == 0.0;
     stepsInPlace_ = inPlace ? stepsInPlace_ + 1 : 0;
-    const bool calm = trace_.comError < parameters_.errNorm || stepsInPlace_ > kMostStepsInPlace;
+    const bool upright = std::max(std::abs(tilt.pitch), std::abs(tilt.roll)) < kUprightTilt;
+    const bool calm = upright || trace_.comError < parameters_.errNorm || stepsInPlace_ > kMostStepsInPlace;
     if (stepsInPlace_ > kStepsBeforeStand && calm) {
       mode_ = Mode::Standing;
       step_ = Pose2{};

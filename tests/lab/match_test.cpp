@@ -107,6 +107,30 @@ TEST(Match, SameSeedSameMatchOnAnyNumberOfThreads) {
   EXPECT_NE(first.signature, other.signature);
 }
 
+// The whole line, from the eyes to the feet: nine robots that nobody hinders stay on their feet and score,
+// from every seed (here the first half of a minute and a half: 45 s).
+TEST(Match, NineAloneStandAndScore) {
+  int falls = 0;
+  int goals = 0;
+  constexpr int kMatches = 3;
+  for (std::uint64_t seed = 1; seed <= kMatches; ++seed) {
+    MatchChoice choice;
+    choice.right.players = 0;
+    choice.seed = seed;
+    choice.minutes = 1.5;
+    MatchObservers observers;
+    observers.afterCycle = [](const sim::Simulation&, const MatchWatcher& watcher) {
+      return watcher.result().gameTime < 45.0;
+    };
+    const MatchResult result = playInProcess(choice, NONET_SOURCE_DIR, 2, observers);
+    falls += result.falls(false);
+    goals += result.scoreLeft;
+    EXPECT_EQ(result.scoreRight, 0);
+  }
+  EXPECT_GE(goals, kMatches - 1);
+  EXPECT_LE(falls, 2) << "of 27 robots";
+}
+
 TEST(Match, CanBeStopped) {
   int cycles = 0;
   MatchObservers observers;

@@ -68,7 +68,7 @@ struct BallHandlingParameters {
   double kickAsideTolerance = 0.03;
   double kickAngle = 0.2;
   double kickApproach = 1.2;
-  double kickGain = 5.0;
+  double kickGain = 3.5;
   double kickOpponentDistance = 1.8;
   double kickLane = 0.3;
   double handleDistance = 0.9;
