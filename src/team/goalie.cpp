@@ -67,7 +67,7 @@ bool Goalie::dives(const world::WorldState& world, motion::MotionRequest& reques
 }
 
 motion::MotionRequest Goalie::update(const world::WorldState& world, bool mayTouch) {
-  const motion::MotionRequest request = decide(world, mayTouch);
+  motion::MotionRequest request = decide(world, mayTouch);
   kicking_ = request.kind == motion::MotionRequest::Kind::Kick;
   return request;
 }
