@@ -25,19 +25,18 @@ constexpr double kAheadSpread = 0.03;
 constexpr double kAsideSpread = 0.02;
 constexpr double kBelief = 0.005;  // m, standard deviation of what the robot is told
 
-constexpr float kBallRadius = 0.042F;  // m, server facts 3.3
-constexpr double kLongestKick = 3.0;   // s
-constexpr double kRollsOut = 8.0;      // s, for the ball
-constexpr double kLasts = 1.0;         // s that the robot must stand after the skill
-constexpr double kMiss = 0.3;          // m
+constexpr double kLongestKick = 3.0;  // s
+constexpr double kRollsOut = 8.0;     // s, for the ball
+constexpr double kLasts = 1.0;        // s that the robot must stand after the skill
+constexpr double kMiss = 0.3;         // m
 
 world::BallMotion ballOf(RobotTrial& trial) {
   return {trial.physics().ballPosition().cast<double>(), trial.physics().ballVelocity().cast<double>()};
 }
 
 void putBall(RobotTrial& trial, const Vector2& place) {
-  trial.physics().setBallPosition(
-      sim::Vector3f(static_cast<float>(place.x()), static_cast<float>(place.y()), kBallRadius));
+  const double radius = trial.physics().settings().ballRadius;
+  trial.physics().setBallPosition(Vector3(place.x(), place.y(), radius).cast<float>());
   trial.physics().setBallVelocity(sim::Vector3f::Zero());
 }
 

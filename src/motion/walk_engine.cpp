@@ -27,6 +27,11 @@ double progress(double t, double begin, double length, double straightness) {
   return (1.0 - straightness) * 0.5 * (1.0 - std::cos(kPi * u)) + straightness * u;
 }
 
+// Of a gap of which `share` is closed in a cycle.
+double shareAfter(double cycles, double share) {
+  return 1.0 - std::pow(1.0 - std::min(share, 1.0), cycles);
+}
+
 double approach(double value, double goal, double share, double maxChange) {
   return value + std::clamp(share * (goal - value), -maxChange, maxChange);
 }
@@ -113,7 +118,7 @@ void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
                                1.0 / e);
   if (norm > 1.0) desired = scaled(desired, 1.0 / norm);
 
-  const auto closed = [cycles](double delta) { return 1.0 - std::pow(1.0 - std::min(delta, 1.0), cycles); };
+  const auto closed = [cycles](double delta) { return shareAfter(cycles, delta); };
   const auto change = [&](double value, double goal, double delta, double most) {
     const bool shrinks = value * (goal - value) < 0.0;
     const double factor = shrinks ? p.brake : 1.0;
@@ -142,7 +147,7 @@ void WalkEngine::updateAcceleration(const Vector2& stepChange, double cycles) {
   const Vector2 speed = step_.translation / stepTime();
   const Vector2 commanded =
       stepChange / (stepTime() * kCycleTime * cycles) + turnRate * Vector2(-speed.y(), speed.x());
-  acceleration_ += (1.0 - std::pow(1.0 - p.accelerationFilter, cycles)) * (commanded - acceleration_);
+  acceleration_ += shareAfter(cycles, p.accelerationFilter) * (commanded - acceleration_);
 }
 
 // The attitude that the torso should have.

@@ -188,17 +188,16 @@ bool inPlace(const Task& task, const BallHandlingParameters& p, bool kicking) {
          std::abs(task.direction) < share * p.kickAngle;
 }
 
-bool mayKick(const world::WorldState& world, const Vector2& p_FTarget, const Task& task,
-             const BallHandlingParameters& p, KickUse use, bool kicking) {
+bool mayKick(const world::WorldState& world, const Vector2& p_FTarget, const BallHandlingParameters& p,
+             KickUse use, bool there, bool kicking) {
   constexpr double kLaneLength = 3.0;  // m
   constexpr double kRolling = 0.3;     // m/s, a faster ball is not where it was when the foot comes
   if (!p.kick || use == KickUse::Never || world.ball.v_FB.head<2>().norm() > kRolling) return false;
-  const bool begun = inPlace(task, p, kicking);
-  if (opponentNear(world, (begun ? 0.4 : 1.0) * p.kickOpponentDistance)) return false;
+  if (opponentNear(world, (there ? 0.4 : 1.0) * p.kickOpponentDistance)) return false;
   const Vector2 from = world.ball.p_FB.head<2>();
   const Vector2 way = p_FTarget - from;
   const Vector2 end = from + std::min(1.0, kLaneLength / std::max(way.norm(), 1e-6)) * way;
-  return use == KickUse::Clear || (begun && kicking) || laneWidth(world, from, end) > p.kickLane;
+  return use == KickUse::Clear || (there && kicking) || laneWidth(world, from, end) > p.kickLane;
 }
 
 MotionRequest kick(const Task& task) {
@@ -228,8 +227,9 @@ MotionRequest lineUp(const Task& task, const BallHandlingParameters& p) {
 MotionRequest handleBall(const world::WorldState& world, const Vector2& p_FTarget,
                          const BallHandlingParameters& parameters, KickUse use, bool kicking) {
   const Task task = taskFor(world, p_FTarget);
-  if (mayKick(world, p_FTarget, task, parameters, use, kicking)) {
-    if (inPlace(task, parameters, kicking)) return kick(task);
+  const bool there = inPlace(task, parameters, kicking);
+  if (mayKick(world, p_FTarget, parameters, use, there, kicking)) {
+    if (there) return kick(task);
     const bool behind = task.behind > 0.5 * parameters.kickAhead &&
                         std::abs(task.direction) < parameters.kickApproach &&
                         std::abs(task.besides) < task.behind + parameters.kickAside;

@@ -130,7 +130,7 @@ void Behavior::play(const WorldState& world, Intent& intent) {
   }
   if (!world.self.localized) return;
   if (isGoalie) {
-    intent.motion = goalie_.update(world, mayTouch(world));
+    intent.motion = goalie_.update(world, mayTouch(world), kicking_);
   } else {
     fieldPlayer(world, intent);
   }

@@ -66,17 +66,11 @@ bool Goalie::dives(const world::WorldState& world, motion::MotionRequest& reques
   return true;
 }
 
-motion::MotionRequest Goalie::update(const world::WorldState& world, bool mayTouch) {
-  motion::MotionRequest request = decide(world, mayTouch);
-  kicking_ = request.kind == motion::MotionRequest::Kind::Kick;
-  return request;
-}
-
-motion::MotionRequest Goalie::decide(const world::WorldState& world, bool mayTouch) {
+motion::MotionRequest Goalie::update(const world::WorldState& world, bool mayTouch, bool kicking) {
   motion::MotionRequest request;
   claims_ = mayTouch && wantsBall(world);
   if (dives(world, request)) return request;
-  if (claims_) return playBall(world, clearanceTarget(world), parameters_, KickUse::Clear, kicking_);
+  if (claims_) return playBall(world, clearanceTarget(world), parameters_, KickUse::Clear, kicking);
 
   const Vector2 ball = world.ball.p_FB.head<2>();
   const Vector2 goal(-0.5 * world.field.length, 0.0);

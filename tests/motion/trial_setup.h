@@ -9,13 +9,7 @@ namespace nonet::lab {
 inline TrialSetup agentTrialSetup(int type) {
   AgentChoice choice;
   choice.robotType = type;
-  const agent::AgentConfig config = makeAgentConfig(choice, NONET_SOURCE_DIR);
-  TrialSetup setup;
-  setup.robotType = type;
-  setup.motion = config.parameters.motion;
-  setup.world = config.parameters.world;
-  setup.skillFolder = config.skillFolder;
-  return setup;
+  return trialSetup(makeAgentConfig(choice, NONET_SOURCE_DIR));
 }
 
 }  // namespace nonet::lab

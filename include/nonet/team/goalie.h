@@ -11,18 +11,17 @@ class Goalie {
  public:
   explicit Goalie(const TeamParameters& parameters);
 
-  motion::MotionRequest update(const world::WorldState& world, bool mayTouch);
+  /// `kicking`: the last request was a kick (ball_handling.h).
+  motion::MotionRequest update(const world::WorldState& world, bool mayTouch, bool kicking = false);
   /// It goes to the ball: the field players leave it to the goalie.
   bool claimsBall() const { return claims_; }
 
  private:
-  motion::MotionRequest decide(const world::WorldState& world, bool mayTouch);
   bool dives(const world::WorldState& world, motion::MotionRequest& request) const;
   bool wantsBall(const world::WorldState& world) const;
 
   TeamParameters parameters_;
   bool claims_ = false;
-  bool kicking_ = false;  // the last request was a kick
 };
 
 }  // namespace nonet::team
