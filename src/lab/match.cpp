@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "nonet/lab/work_crew.h"
 #include "nonet/math/angle.h"
 #include "nonet/protocol/play_mode.h"
 #include "nonet/sim/monitor.h"
@@ -170,15 +169,13 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
   if (!choice.monitorLog.empty()) monitorLog.emplace(simulation, choice.monitorLog);
 
   // As over TCP, the agents think about the messages that beginCycle() sent while the physics goes on.
-  WorkCrew crew(threads);
-  const std::function<void(int)> work = [&](int i) {
-    if (i == 0) return simulation.finishCycle();
-    InProcessPlayer& player = players[static_cast<std::size_t>(i - 1)];
-    player.answered = player.percept != nullptr;
-    if (!player.answered) return;
-    ++player.messages;
-    player.answer = player.agent->step(*player.percept);
-  };
+  const sim::SharedWork thoughts{players.size(), [&players](std::size_t i) {
+                                   InProcessPlayer& player = players[i];
+                                   player.answered = player.percept != nullptr;
+                                   if (!player.answered) return;
+                                   ++player.messages;
+                                   player.answer = player.agent->step(*player.percept);
+                                 }};
   const auto start = std::chrono::steady_clock::now();
   int afterEnd = 0;
   for (bool more = true; more;) {
@@ -192,7 +189,7 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
     }
     simulation.beginCycle();
     for (InProcessPlayer& player : players) player.percept = simulation.sense(player.handle);
-    crew.run(static_cast<int>(players.size()) + 1, work);
+    simulation.finishCycle(thoughts);
     if (monitorLog) monitorLog->cycle();
     watcher.update(simulation);
     if (watcher.result().finished && ++afterEnd > kLinger) more = false;

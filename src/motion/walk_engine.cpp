@@ -154,7 +154,8 @@ void WalkEngine::updateAcceleration(const Vector2& stepChange, double cycles) {
 WalkEngine::Lean WalkEngine::lean() const {
   const WalkParameters& p = parameters_;
   const Vector2 tilt = acceleration_ / kGravity;
-  return {.pitch = p.torsoPitch + p.torsoPitchStep * step_.translation.x() + p.accelerationPitch * tilt.x(),
+  const double slope = step_.translation.x() >= 0.0 ? p.torsoPitchStep : p.torsoPitchStepBack;
+  return {.pitch = p.torsoPitch + slope * step_.translation.x() + p.accelerationPitch * tilt.x(),
           .roll = -p.torsoRollStep * step_.translation.y() - p.accelerationRoll * tilt.y()};
 }
 
@@ -251,13 +252,14 @@ void WalkEngine::footPoses(const Tilt& tilt, FootPoses& feet) const {
   const Lean desired = lean();
   const double pitch = desired.pitch - p.hipPitchGain * tilt.pitch - p.hipPitchRateGain * tilt.pitchRate;
   const double roll = desired.roll - p.hipRollGain * tilt.roll - p.hipRollRateGain * tilt.rollRate;
+  const double xFactor = step_.translation.x() >= 0.0 ? p.xFactor : p.xFactorBack;
   const Vector2 shift = p.pendulumHeight / kGravity * acceleration_;
   const Matrix3 R_RL = tiltRotation(pitch, roll).transpose();
   for (const Side side : {Side::Left, Side::Right}) {
     const bool swings = mode_ != Mode::Standing && side != stance_;
     const Pose2& foot = feet_[index(side)];
     Vector3 p_LS;
-    p_LS.x() = foot.translation.x() - torso.x() + p.xOffset - p.xFactor * step_.translation.x() +
+    p_LS.x() = foot.translation.x() - torso.x() + p.xOffset - xFactor * step_.translation.x() +
                p.comGainX * comOffset_.x() - p.accelerationShiftX * shift.x();
     p_LS.y() = foot.translation.y() - torso.y() - p.yFactor * step_.translation.y() +
                p.comGainY * comOffset_.y() - p.accelerationShiftY * shift.y();

@@ -409,7 +409,7 @@ void Simulation::beginCycle() {
   }
 }
 
-void Simulation::finishCycle() {
+void Simulation::finishCycle(const SharedWork& alongside) {
   Implementation& self = *implementation_;
   for (const auto& agent : self.agents) {
     if (!agent->gone) self.executeDeferred(*agent);
@@ -418,7 +418,7 @@ void Simulation::finishCycle() {
   for (const auto& agent : self.agents) {
     if (!agent->gone) self.executeScene(*agent);
   }
-  self.world.stepPhysics();
+  self.world.stepPhysics(alongside);
   self.removeGoneAgents();
   const TeamName leftBefore = self.referee.game().teamName(TeamSide::Left);
   self.referee.update(static_cast<int>(self.agents.size()));
@@ -427,7 +427,8 @@ void Simulation::finishCycle() {
   self.serverTime += kStep;
   self.updateMatch();
   self.listVisiblePlayers();
-  for (const auto& agent : self.agents) self.makeSenses(*agent);
+  // Each has its own stream of random numbers and reads of the world only what no other sense changes.
+  self.world.share({self.agents.size(), [&self](std::size_t i) { self.makeSenses(*self.agents[i]); }});
 }
 
 const World& Simulation::world() const {

@@ -113,9 +113,12 @@ World::Goal World::ballInGoal() const {
 void World::prePhysics() {
   implementation_->prePhysics();
 }
-void World::stepPhysics() {
+void World::share(const SharedWork& work) const {
+  implementation_->workers.run(work.count, work.piece);
+}
+void World::stepPhysics(const SharedWork& alongside) {
   prepareOdeThread();
-  implementation_->stepPhysics();
+  implementation_->stepPhysics(alongside);
 }
 std::span<const ContactPair> World::contacts() const {
   return implementation_->contacts;

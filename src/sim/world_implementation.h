@@ -164,11 +164,12 @@ struct World::Implementation {
 
   // world_step.cpp
   void prePhysics();
-  void stepPhysics();
+  void stepPhysics(const SharedWork& alongside);
   void collideGeoms(dGeomID first, dGeomID second);
   void addContacts(const Collider& first, const Collider& second, int count);
   void followSleep(BodyNode& node, bool attached) const;
   void formClusters();
+  void listBySize();
   void placeMovedGeoms();
   void copyPoses();
   void readFootSensors(RobotNode& robot);
@@ -206,6 +207,7 @@ struct World::Implementation {
   std::vector<Cell*> cells;  // ball, then robots in order of creation
   std::deque<Cluster> clusters;
   std::size_t clustersUsed = 0;
+  std::vector<Cluster*> clustersBySize;  // those in use, the largest first
   std::vector<Cluster*> movedClusters;
   std::vector<std::size_t> leaders;  // per cell: the first cell of its cluster
 };

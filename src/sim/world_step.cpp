@@ -132,7 +132,7 @@ void World::Implementation::addContacts(const Collider& first, const Collider& s
   }
 }
 
-void World::Implementation::stepPhysics() {
+void World::Implementation::stepPhysics(const SharedWork& alongside) {
   contacts.clear();
   ballInGoal = Goal::None;
   pendingUsed = 0;
@@ -141,11 +141,14 @@ void World::Implementation::stepPhysics() {
     static_cast<Implementation*>(self)->collideGeoms(a, b);
   });
   formClusters();
-  workers.run(clustersUsed, [this](std::size_t i) {
-    if (settings.solver == WorldSettings::Solver::Exact) {
-      stepExactly(clusters[i], kStep);
+  listBySize();
+  workers.run(clustersUsed + alongside.count, [this, &alongside](std::size_t i) {
+    if (i >= clustersUsed) {
+      alongside.piece(i - clustersUsed);
+    } else if (settings.solver == WorldSettings::Solver::Exact) {
+      stepExactly(*clustersBySize[i], kStep);
     } else {
-      stepQuickly(clusters[i], kStep);
+      stepQuickly(*clustersBySize[i], kStep);
     }
   });
   placeMovedGeoms();
@@ -221,6 +224,17 @@ void World::Implementation::formClusters() {
     Cluster& cluster = clusters[i];
     if (cluster.cells.size() > 1) cluster.common = &commonWorlds.forCells(cluster.cells, settings, cycles);
   }
+}
+
+// The work of a cluster grows with the cube of its constraints: begun last, the largest one would keep the
+// other threads waiting.
+void World::Implementation::listBySize() {
+  clustersBySize.clear();
+  for (std::size_t i = 0; i < clustersUsed; ++i) clustersBySize.push_back(&clusters[i]);
+  std::sort(clustersBySize.begin(), clustersBySize.end(), [](const Cluster* a, const Cluster* b) {
+    if (a->cells.size() != b->cells.size()) return a->cells.size() > b->cells.size();
+    return a->contacts.size() > b->contacts.size();
+  });
 }
 
 // In one ODE world for all, the newest bodies would come first, cluster by cluster. The order of these moves

@@ -30,26 +30,34 @@ StepWorkers::~StepWorkers() {
 }
 
 void StepWorkers::run(std::size_t count, const std::function<void(std::size_t)>& work) {
-  if (threads_.empty() || count < 2) {
-    for (std::size_t i = 0; i < count; ++i) work(i);
-    return;
-  }
+  const bool alone = threads_.empty() || count < 2;
   {
     const std::lock_guard lock(mutex_);
     work_ = &work;
     count_ = count;
     next_ = 0;
-    busy_ = threads_.size();
-    ++round_;
+    error_ = nullptr;
+    if (!alone) {
+      busy_ = threads_.size();
+      ++round_;
+    }
   }
-  begin_.notify_all();
+  if (!alone) begin_.notify_all();
   takePieces();
   std::unique_lock lock(mutex_);
   end_.wait(lock, [this] { return busy_ == 0; });
+  if (error_) std::rethrow_exception(error_);
 }
 
 void StepWorkers::takePieces() {
-  for (std::size_t i = next_++; i < count_; i = next_++) (*work_)(i);
+  for (std::size_t i = next_++; i < count_; i = next_++) {
+    try {
+      (*work_)(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+    }
+  }
 }
 
 void StepWorkers::serve() {

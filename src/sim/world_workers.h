@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -19,7 +20,8 @@ class StepWorkers {
   StepWorkers(const StepWorkers&) = delete;
   StepWorkers& operator=(const StepWorkers&) = delete;
 
-  /// Calls work(0) ... work(count - 1), each once, and returns when all are done.
+  /// Calls work(0) ... work(count - 1), each once, and returns when all are done. The first exception of a
+  /// call is thrown again here.
   void run(std::size_t count, const std::function<void(std::size_t)>& work);
 
  private:
@@ -35,6 +37,7 @@ class StepWorkers {
   std::atomic<std::size_t> next_{0};
   std::size_t round_ = 0;
   std::size_t busy_ = 0;
+  std::exception_ptr error_;
   bool stop_ = false;
 };
 

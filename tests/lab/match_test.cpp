@@ -1,15 +1,11 @@
 #include "nonet/lab/match.h"
 
-#include <atomic>
 #include <map>
-#include <mutex>
 #include <set>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "nonet/lab/match_localization.h"
-#include "nonet/lab/work_crew.h"
 #include "nonet/math/angle.h"
 
 namespace nonet::lab {
@@ -23,33 +19,6 @@ MatchChoice shortMatch(std::uint64_t seed) {
   choice.minutes = 2.0 / 60.0;  // two halves of one second
   choice.kickOffWait = 0.5;
   return choice;
-}
-
-TEST(WorkCrew, DoesEveryPieceOnce) {
-  for (const int threads : {1, 2, 4}) {
-    WorkCrew crew(threads);
-    for (const int count : {0, 1, 5, 100}) {
-      std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
-      crew.run(count, [&](int i) { ++done[static_cast<std::size_t>(i)]; });
-      for (const auto& times : done) EXPECT_EQ(times, 1);
-    }
-  }
-}
-
-TEST(WorkCrew, PassesExceptionsOn) {
-  WorkCrew crew(3);
-  EXPECT_THROW(crew.run(10,
-                        [](int i) {
-                          if (i == 7) throw std::runtime_error("seven");
-                        }),
-               std::runtime_error);
-  int sum = 0;
-  std::mutex mutex;
-  crew.run(4, [&](int i) {
-    const std::lock_guard lock(mutex);
-    sum += i;
-  });
-  EXPECT_EQ(sum, 6) << "it works on after an exception";
 }
 
 TEST(Match, SeedsOfAgentsDiffer) {

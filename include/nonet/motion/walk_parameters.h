@@ -33,9 +33,11 @@ struct WalkParameters {
   double pendulumHeight = 0.26;
   double xOffset = -0.015;
   double xFactor = 0.0;
+  double xFactorBack = 0.0;
   double yFactor = 0.0;
   double torsoPitch = 0.0;
   double torsoPitchStep = 0.0;
+  double torsoPitchStepBack = 0.0;
   double torsoRollStep = 0.0;
   double accelerationFilter = 0.3;
   double accelerationShiftX = 0.0;
@@ -194,6 +196,12 @@ struct WalkParameters {
            search(-0.5, 0.5),
            "Torso ahead per forward step size (x_factor)"},
           self.xFactor);
+    visit({"xFactorBack",
+           Unit::None,
+           {-3.0, 3.0},
+           search(-0.5, 0.5),
+           "The same in backward steps, where both are negative"},
+          self.xFactorBack);
     visit({"yFactor", Unit::None, {-3.0, 3.0}, search(-0.5, 0.5), "Torso to the side per side step size"},
           self.yFactor);
     visit({"torsoPitch", Unit::Radian, {-1.0, 1.0}, search(-0.2, 0.3), "Torso leaning forward"},
@@ -204,6 +212,12 @@ struct WalkParameters {
            search(-3.0, 3.0),
            "Further lean in rad per metre of forward step"},
           self.torsoPitchStep);
+    visit({"torsoPitchStepBack",
+           Unit::None,
+           {-20.0, 20.0},
+           search(-3.0, 3.0),
+           "The same in backward steps, where both are negative"},
+          self.torsoPitchStepBack);
     visit({"torsoRollStep",
            Unit::None,
            {-20.0, 20.0},

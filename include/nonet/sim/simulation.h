@@ -84,9 +84,10 @@ class Simulation {
   /// One cycle of 20 ms: commands, pre-physics, physics, clock and referee, senses.
   void step();
   /// The two halves of step(): beginCycle() reads the commands and hands out the messages of the cycle
-  /// before; finishCycle() does the rest. A server in real time sends between the two.
+  /// before; finishCycle() does the rest. A server in real time sends between the two. What does not touch
+  /// the simulation, such as agents that think about those messages, may go on alongside, on its threads.
   void beginCycle();
-  void finishCycle();
+  void finishCycle(const SharedWork& alongside = {});
 
   // -- truth, for the monitor stream, tasks and tests
   const World& world() const;

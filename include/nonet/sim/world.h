@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,6 +66,12 @@ struct ContactPair {
 struct FootContact {
   Vector3f center = Vector3f::Zero();
   Vector3f force = Vector3f::Zero();
+};
+
+/// Independent pieces of work: piece(0) ... piece(count - 1), each to be called once, by any thread.
+struct SharedWork {
+  std::size_t count = 0;
+  std::function<void(std::size_t)> piece;
 };
 
 class World {
@@ -151,7 +158,11 @@ class World {
   /// right after it.
   void prePhysics();
   /// Collision, one ODE step of 0.02 s, copy of the poses (collide + step + post-physics).
-  void stepPhysics();
+  /// Work that does not touch this world may go on beside the islands, on the same threads.
+  void stepPhysics(const SharedWork& alongside = {});
+  /// Does work that reads the world, such as the sensors of different robots, on the threads that step the
+  /// islands. The first exception of a piece is thrown again here, after the others.
+  void share(const SharedWork& work) const;
   /// Contacts of the last step, in the order in which ODE delivered them.
   std::span<const ContactPair> contacts() const;
 
