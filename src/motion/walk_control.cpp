@@ -24,7 +24,10 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& re
   const bool walk =
       request.kind == MotionRequest::Kind::WalkVelocity || request.kind == MotionRequest::Kind::WalkTo;
   Pose2 speed;
-  if (request.kind == MotionRequest::Kind::WalkVelocity) speed = request.velocity;
+  if (request.kind == MotionRequest::Kind::WalkVelocity) {
+    speed = request.velocity;
+    speed.translation = Pose2(Vector2::Zero(), engine_.trace().torsoYaw).rotate(speed.translation);
+  }
   if (request.kind == MotionRequest::Kind::WalkTo) speed = speedTowards(request);
   engine_.update(world.body, active_, speed, walk, targets);
 }
@@ -61,13 +64,14 @@ WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionReque
 // set allows in that direction, turning towards it when far, to the target's heading when near.
 Pose2 WalkControl::speedTowards(const MotionRequest& request) const {
   const WalkParameters& p = active_;
-  const Vector2& target = request.target.translation;
+  // As seen from the walk frame, in which the torso turns to and fro.
+  const Pose2 X_WTarget = Pose2(Vector2::Zero(), engine_.trace().torsoYaw) * request.target;
+  const Vector2& target = X_WTarget.translation;
   const double distance = target.norm();
   const double bearing = distance > 1e-6 ? std::atan2(target.y(), target.x()) : 0.0;
   const double turnDistance = std::max(p.targetTurnDistance, 1e-6);
   const double far = std::clamp(2.0 * distance / turnDistance - 1.0, 0.0, 1.0);
-  const double angle =
-      wrapAngle(request.target.rotation + far * wrapAngle(bearing - request.target.rotation));
+  const double angle = wrapAngle(X_WTarget.rotation + far * wrapAngle(bearing - X_WTarget.rotation));
 
   const double stepTime = engine_.stepTime(p);
   Pose2 speed;

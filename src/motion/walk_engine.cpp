@@ -159,6 +159,14 @@ WalkEngine::Lean WalkEngine::lean() const {
           .roll = -p.torsoRollStep * step_.translation.y() - p.accelerationRoll * tilt.y()};
 }
 
+// A hip yaw-pitch joint that turns its leg outwards swings it forward: while the torso turns to and fro, the
+// foot ahead always points outwards, so these joints share the stroke with the hip pitch joints, whose speed
+// bounds that of the walk.
+double WalkEngine::torsoYaw() const {
+  if (mode_ == Mode::Standing) return 0.0;
+  return sideSign(stance_) * (2.0 * phase_ - 1.0) * parameters_.torsoYawStep * step_.translation.x();
+}
+
 void WalkEngine::advancePhase(double cycleTime, bool walk, const Pose2& speed, const Tilt& tilt) {
   if (mode_ == Mode::Standing) {
     const bool leans = std::max(std::abs(tilt.pitch), std::abs(tilt.roll)) > parameters_.balanceTilt;
@@ -204,7 +212,8 @@ void WalkEngine::moveSwingFoot(const Tilt& tilt) {
   // is stance foot.
   const double wider = p.turnOut * std::abs(step_.rotation) + p.sideOut * std::abs(step_.translation.y());
   const double side = sign * (0.5 * p.ySep + wider);
-  const double outwards = sign * (p.footYaw + p.turnYaw * std::abs(step_.rotation));
+  const double outwards = sign * (p.footYaw + p.turnYaw * std::abs(step_.rotation) +
+                                  p.yawOut * std::abs(p.torsoYawStep * step_.translation.x()));
   Pose2 landing =
       scaled(step_, 1.0 - phase_) *
       Pose2(0.5 * step_.translation.x(), side + 0.5 * step_.translation.y(), 0.5 * step_.rotation + outwards);
@@ -245,7 +254,7 @@ double WalkEngine::lift() const {
 
 void WalkEngine::footPoses(const Tilt& tilt, FootPoses& feet) const {
   const WalkParameters& p = parameters_;
-  const Vector2 torso = pendulumOffset();
+  const Pose2 X_TW = Pose2(pendulumOffset(), torsoYaw()).inverse();
   const double liftShare = lift();
   const double middle = std::sin(kPi * std::clamp(phase_, 0.0, 1.0));
   const double height = p.zTorso * model_->standingHeight();
@@ -257,12 +266,12 @@ void WalkEngine::footPoses(const Tilt& tilt, FootPoses& feet) const {
   const Matrix3 R_RL = tiltRotation(pitch, roll).transpose();
   for (const Side side : {Side::Left, Side::Right}) {
     const bool swings = mode_ != Mode::Standing && side != stance_;
-    const Pose2& foot = feet_[index(side)];
+    const Pose2 foot = X_TW * feet_[index(side)];
     Vector3 p_LS;
-    p_LS.x() = foot.translation.x() - torso.x() + p.xOffset - xFactor * step_.translation.x() +
+    p_LS.x() = foot.translation.x() + p.xOffset - xFactor * step_.translation.x() +
                p.comGainX * comOffset_.x() - p.accelerationShiftX * shift.x();
-    p_LS.y() = foot.translation.y() - torso.y() - p.yFactor * step_.translation.y() +
-               p.comGainY * comOffset_.y() - p.accelerationShiftY * shift.y();
+    p_LS.y() = foot.translation.y() - p.yFactor * step_.translation.y() + p.comGainY * comOffset_.y() -
+               p.accelerationShiftY * shift.y();
     p_LS.z() = -height;
     double footPitch = p.footPitch;
     double footRoll = sideSign(side) * p.footRoll;
@@ -311,10 +320,12 @@ void WalkEngine::measureComError(const world::BodyState& body, const model::Join
   historyEnd_ = (historyEnd_ + 1) % kHistory;
   expectedCom_[historyEnd_] = comOverSole(*model_, commandedBodies_, stance_, pitch, roll);
   expectedStance_[historyEnd_] = stance_;
+  expectedYaw_[historyEnd_] = torsoYaw();
   historySize_ = std::min(historySize_ + 1, kHistory);
   const auto delay = static_cast<std::size_t>(std::lround(p.comDelay / kCycleTime));
   if (delay >= historySize_) return;
   const std::size_t at = (historyEnd_ + kHistory - delay) % kHistory;
+  trace_.torsoYaw = expectedYaw_[at];
   trace_.p_SComDesired = expectedCom_[at];
   trace_.p_SComMeasured = comOverSole(*model_, body.bodies, expectedStance_[at], body.pitch, body.roll);
   trace_.comError = (trace_.p_SComDesired - trace_.p_SComMeasured).head<2>().cwiseAbs().maxCoeff();

@@ -101,8 +101,10 @@ TEST(WalkEngine, StandsSymmetricallyAtItsHeight) {
 // In the walk frame on the ground the stance foot does not move, whatever the speed (no slipping is planned).
 // The torso's own motion over the walk frame is the pendulum's, so it is taken out by the other foot at rest:
 // compare through the torso offset that both soles share while standing still in W.
-TEST(WalkEngine, StanceFootStaysOnTheGround) {
+// Also while the torso turns to and fro.
+void expectStanceFootOnTheGround(double torsoYawStep) {
   WalkParameters parameters;
+  parameters.torsoYawStep = torsoYawStep;
   parameters.swayFactor = 0.0;  // torso exactly over the walk frame
   parameters.xPendulum = 0.0;
   Walker walker(0, parameters);
@@ -120,11 +122,14 @@ TEST(WalkEngine, StanceFootStaysOnTheGround) {
       known = false;
       continue;
     }
-    const Side now = walker.engine.trace().stance;
+    const WalkTrace& trace = walker.engine.trace();
+    const Side now = trace.stance;
+    const double torsoYaw =
+        sideSign(now) * (2.0 * trace.phase - 1.0) * torsoYawStep * trace.step.translation.x();
     const Pose3 X_RS = walker.sole(now);
     const double yaw = std::atan2(X_RS.linear()(1, 0), X_RS.linear()(0, 0));
-    const Pose2 foot =
-        walker.X_FW * Pose2(X_RS.translation().x() - parameters.xOffset, X_RS.translation().y(), yaw);
+    const Pose2 foot = walker.X_FW * Pose2(Vector2::Zero(), torsoYaw) *
+                       Pose2(X_RS.translation().x() - parameters.xOffset, X_RS.translation().y(), yaw);
     if (known && now == stance) {
       EXPECT_LT((foot.translation - ground.translation).norm(), 1e-6) << i;
       EXPECT_LT(std::abs(wrapAngle(foot.rotation - ground.rotation)), 1e-6) << i;
@@ -133,6 +138,38 @@ TEST(WalkEngine, StanceFootStaysOnTheGround) {
     ground = foot;
     known = true;
   }
+}
+
+TEST(WalkEngine, StanceFootStaysOnTheGround) {
+  expectStanceFootOnTheGround(0.0);
+}
+
+TEST(WalkEngine, StanceFootStaysOnTheGroundBelowATurningTorso) {
+  expectStanceFootOnTheGround(3.0);
+}
+
+// The hip of the foot ahead is ahead, and that foot points outwards.
+TEST(WalkEngine, TurnsTheTorsoWithTheSteps) {
+  WalkParameters parameters;
+  parameters.torsoYawStep = 3.0;
+  parameters.yawOut = 1.0;
+  Walker walker(0, parameters);
+  double least = 1.0;
+  double most = -1.0;
+  for (int i = 0; i < 200; ++i) {
+    walker.step(Pose2(1.0, 0.0, 0.0));
+    if (i < 100) continue;
+    const Pose3 X_RS = walker.sole(Side::Left);
+    const double yaw = std::atan2(X_RS.linear()(1, 0), X_RS.linear()(0, 0));
+    least = std::min(least, yaw);
+    most = std::max(most, yaw);
+    if (X_RS.translation().x() > 0.02) {
+      EXPECT_GT(yaw, 0.0);
+    }
+  }
+  const double amplitude = 3.0 * parameters.maxStepX;
+  EXPECT_NEAR(most, 2.0 * amplitude, 0.1 * amplitude);
+  EXPECT_NEAR(least, 0.0, 0.4 * amplitude);
 }
 
 // Position and velocity of the pendulum match when the feet change: sideways the torso's motion relative to

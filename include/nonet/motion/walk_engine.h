@@ -33,6 +33,7 @@ struct WalkTrace {
   double comError = 0.0;                     // m
   double pitchError = 0.0;                   // rad
   double rollError = 0.0;                    // rad
+  double torsoYaw = 0.0;                     // of the measured torso in the walk frame, rad
   model::Reach reach = model::Reach::Exact;
 };
 
@@ -77,6 +78,7 @@ class WalkEngine {
   void updateStepSize(double cycles, const Pose2& speed, bool walk);
   void updateAcceleration(const Vector2& stepChange, double cycles);
   Lean lean() const;
+  double torsoYaw() const;
   void moveFrame(double cycleTime);
   void moveSwingFoot(const Tilt& tilt);
   void placeFeet();
@@ -106,6 +108,7 @@ class WalkEngine {
   static constexpr std::size_t kHistory = 8;
   std::array<Vector3, kHistory> expectedCom_{};  // over the stance foot of that cycle, m
   std::array<model::Side, kHistory> expectedStance_{};
+  std::array<double, kHistory> expectedYaw_{};  // rad
   std::size_t historySize_ = 0;
   std::size_t historyEnd_ = 0;
   model::BodyPoses commandedBodies_{};

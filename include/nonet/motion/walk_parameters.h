@@ -39,6 +39,7 @@ struct WalkParameters {
   double torsoPitchStep = 0.0;
   double torsoPitchStepBack = 0.0;
   double torsoRollStep = 0.0;
+  double torsoYawStep = 0.0;
   double accelerationFilter = 0.3;
   double accelerationShiftX = 0.0;
   double accelerationShiftY = 0.0;
@@ -61,6 +62,7 @@ struct WalkParameters {
   double footRoll = 0.0;
   double footYaw = 0.0;
   double turnYaw = 0.5;
+  double yawOut = 1.0;
   double turnOut = 0.0;
   double sideOut = 0.0;
   double startLift = 0.5;
@@ -224,6 +226,12 @@ struct WalkParameters {
            search(-3.0, 3.0),
            "Lean to the side in rad per metre of side step"},
           self.torsoRollStep);
+    visit({"torsoYawStep",
+           Unit::None,
+           {-20.0, 20.0},
+           search(-1.0, 4.0),
+           "The swing foot's hip goes ahead: turn of the torso at the ends of a step in rad per metre of it"},
+          self.torsoYawStep);
     visit({"accelerationFilter",
            Unit::None,
            {0.01, 1.0},
@@ -311,6 +319,9 @@ struct WalkParameters {
            search(0.3, 0.7),
            "Toes further outwards per turn: a hip turns its leg outwards only, so that a half is needed"},
           self.turnYaw);
+    visit(
+        {"yawOut", Unit::None, {-2.0, 4.0}, search(0.0, 1.5), "Toes further outwards per turn of the torso"},
+        self.yawOut);
     visit({"turnOut", Unit::Metre, {-0.3, 0.3}, search(-0.03, 0.05), "Wider feet per radian of turn"},
           self.turnOut);
     visit({"sideOut",
