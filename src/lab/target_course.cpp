@@ -1,6 +1,7 @@
 #include "nonet/lab/target_course.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -24,6 +25,7 @@ constexpr double kTurnWorth = 0.4;          // m per rad: a turn of half a circl
 constexpr double kNoiseHold = 0.2;          // s between new noise
 constexpr double kHeadingGain = 4.0;        // 1/s, of held headings
 constexpr double kPushEvery = 2.0;          // s, on average
+constexpr double kChangeEvery = 1.0;        // s, on average
 constexpr double kLongestLeg = 30.0;        // s, of courses without time limits
 constexpr double kFastest = 3.0;            // m/s; the walk clamps it to what it can do
 constexpr double kFastestTurn = 2.0 * kPi;  // rad/s
@@ -197,6 +199,7 @@ class Walker {
       if (leg.noise > 0.0 && i % std::lround(kNoiseHold / kCycleTime) == 0)
         noise = leg.noise * Vector2(random_.normal(), random_.normal());
       if (options_.push > 0.0 && random_.uniform() < kCycleTime / kPushEvery) push();
+      if (options_.changeSets && random_.uniform() < kCycleTime / kChangeEvery) changeSet();
       trial_->step(request(leg, at, target + noise, start.rotation, heading));
       if (exploded()) return giveUp();
       const Pose2 now = trial_->pose();
@@ -262,6 +265,11 @@ class Walker {
     return request;
   }
 
+  void changeSet() {
+    using motion::WalkSet;
+    options_.set = options_.set == WalkSet::Positioning ? WalkSet::GoToTarget : WalkSet::Positioning;
+  }
+
   void push() {
     const Vector2 v = polar(options_.push * std::sqrt(random_.uniform()), random_.uniform(-kPi, kPi));
     sim::World& physics = trial_->physics();
@@ -317,27 +325,30 @@ CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const Course
 }
 
 CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads) {
-  std::vector<CourseResult> timed(static_cast<std::size_t>(courses));
-  std::vector<CourseResult> open(static_cast<std::size_t>(courses));
-  inParallel(2 * courses, threads, [&](int i) {
-    const int course = i / 2;
+  constexpr int kWays = 3;  // in time, until every target is reached, with changing sets
+  std::array<std::vector<CourseResult>, kWays> results;
+  for (auto& way : results) way.resize(static_cast<std::size_t>(courses));
+  inParallel(kWays * courses, threads, [&](int i) {
+    const int course = i / kWays;
     const std::uint64_t courseSeed = Random(seed).fork(static_cast<std::uint64_t>(course)).next();
     TrialSetup own = setup;
     own.seed = courseSeed;
     CourseOptions options;
-    options.untilReached = i % 2 == 1;
-    auto& results = options.untilReached ? open : timed;
-    results[static_cast<std::size_t>(course)] = runCourse(own, courseSeed, options);
+    options.untilReached = i % kWays == 1;
+    options.changeSets = i % kWays == 2;
+    results[static_cast<std::size_t>(i % kWays)][static_cast<std::size_t>(course)] =
+        runCourse(own, courseSeed, options);
   });
   CourseSummary summary;
   summary.courses = courses;
-  for (const CourseResult& result : timed) {
+  for (const CourseResult& result : results[0]) {
     summary.falls += result.falls;
     summary.reward += result.reward / courses;
     summary.distance += result.distance / courses;
     summary.stopDrift += result.stopDrift / courses;
   }
-  for (const CourseResult& result : open) summary.time += result.time / courses;
+  for (const CourseResult& result : results[1]) summary.time += result.time / courses;
+  for (const CourseResult& result : results[2]) summary.changeFalls += result.falls;
   return summary;
 }
 

@@ -1,4 +1,5 @@
-// duel: the course of goToTarget among others who bump into the robot, and staying upright before all.
+// duel: the course of goToTarget among others who bump into the robot, and staying upright before all. It
+// teaches the set for the neighbourhood of others.
 #include "nonet/lab/target_course.h"
 
 #include "tasks.h"
@@ -16,12 +17,18 @@ class DuelTask final : public Task {
   std::string_view description() const override {
     return "the course of goToTarget with pushes as in a crowd; a fall costs 20 instead of 5";
   }
-  std::vector<std::string> searchedKeys() const override { return {"motion.walk."}; }
+  std::vector<std::string> searchedKeys() const override { return {"motion.positioning."}; }
+
+  // The search begins at the walk set, unless a positioning set was learned before.
+  void prepare(agent::AgentParameters& parameters) const override {
+    parameters.motion.selection.usePositioning = true;
+    startAt(parameters.motion.sets.goToTarget, parameters.motion.sets.positioning);
+  }
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
     CourseOptions options;
-    options.set = motion::WalkSet::GoToTarget;
+    options.set = motion::WalkSet::Positioning;
     options.fallCost = kFallCost;
     options.push = kPush;
     return courseTask(parameters, seed, settings, options);

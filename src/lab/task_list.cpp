@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "nonet/config/parameters.h"
+
 #include "tasks.h"
 
 namespace nonet::lab {
@@ -34,6 +36,11 @@ TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t se
   setup.physics.solver =
       settings.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
   return setup;
+}
+
+void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set) {
+  motion::WalkParameters untouched;
+  if (config::toToml(set) == config::toToml(untouched)) set = walk;
 }
 
 TaskResult courseTask(const agent::AgentParameters& parameters, std::uint64_t seed,

@@ -1,6 +1,5 @@
 // sprint: the same course with the goToTarget set as it is; the sprint set takes over when the target lies
 // straight ahead (AAMAS 2012, section 4.2), so learning it includes the changes between the two.
-#include "nonet/config/parameters.h"
 #include "nonet/lab/target_course.h"
 
 #include "tasks.h"
@@ -20,11 +19,7 @@ class SprintTask final : public Task {
   // The search begins at the walk set, unless a sprint set was learned before.
   void prepare(agent::AgentParameters& parameters) const override {
     parameters.motion.selection.useSprint = true;
-    const auto same = [](motion::WalkParameters a, motion::WalkParameters b) {
-      return config::toToml(a) == config::toToml(b);
-    };
-    if (same(parameters.motion.sets.sprint, motion::MotionParameters{}.sets.sprint))
-      parameters.motion.sets.sprint = parameters.motion.sets.goToTarget;
+    startAt(parameters.motion.sets.goToTarget, parameters.motion.sets.sprint);
   }
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,

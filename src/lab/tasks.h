@@ -20,6 +20,9 @@ const Task& quadraticTask();
 TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings);
 
+/// Where the search for a walk set begins: at `walk`, unless the set was learned before.
+void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set);
+
 /// The course as a task.
 TaskResult courseTask(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings, CourseOptions options);

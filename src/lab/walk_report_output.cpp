@@ -95,6 +95,8 @@ std::string walkReportTable(const WalkReport& report) {
     const CourseSummary& c = report.course;
     out += fmt::format("{:<34}{} in {} courses, reward {:.2f}, stops drift {:.2f} m\n", "falls on the course",
                        c.falls, c.courses, c.reward, c.stopDrift);
+    out += fmt::format("{:<34}{} in {} courses\n", "falls while sets change at random", c.changeFalls,
+                       c.courses);
     out += fmt::format("{:<34}{:7.1f} s, every target reached\n\n", "time for a course", c.time);
   }
   out += "direction     steady m/s         first 3 s m/s      falls\n";
@@ -118,9 +120,10 @@ std::string walkReportJson(const WalkReport& report) {
   json["trials"] = report.trials;
   if (report.course.courses > 0) {
     const CourseSummary& c = report.course;
-    json["course"] = {{"courses", c.courses},        {"falls", c.falls},
-                      {"reward", c.reward},          {"distance_m", c.distance},
-                      {"stop_drift_m", c.stopDrift}, {"time_s", c.time}};
+    json["course"] = {{"courses", c.courses},         {"falls", c.falls},
+                      {"reward", c.reward},           {"distance_m", c.distance},
+                      {"stop_drift_m", c.stopDrift},  {"time_s", c.time},
+                      {"change_falls", c.changeFalls}};
   }
   for (int d = 0; d < kWalkDirections; ++d) {
     const auto at = static_cast<std::size_t>(d);

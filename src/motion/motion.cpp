@@ -40,7 +40,7 @@ struct Motion::Stages {
          const std::string& skillFolder)
       : parameters(motionParameters),
         library(skillFolder, motionParameters.skills),
-        stand(WalkEngine::standAngles(robot, motionParameters.sets.goToTarget)),
+        stand(WalkEngine::standAngles(robot, motionParameters.standSet())),
         player(robot, library, stand),
         walk(robot, motionParameters.sets, motionParameters.selection),
         fall(robot, library, motionParameters.fall, stand),

@@ -5,6 +5,21 @@
 
 namespace nonet::motion {
 
+namespace {
+
+constexpr double kKeepSet = 1.3;  // the positioning set is kept up to this multiple of its distances
+
+bool anyWithin(const std::array<world::PlayerState, world::kTeamSize + 1>& players, const Vector2& p_FR,
+               double distance, std::size_t besides) {
+  for (std::size_t i = 0; i < players.size(); ++i) {
+    if (i == besides || !players[i].known) continue;
+    if ((players[i].X_FP.translation - p_FR).norm() < distance) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection)
     : sets_(sets), selection_(selection), engine_(model), from_(sets.goToTarget), active_(sets.goToTarget) {}
 
@@ -45,11 +60,9 @@ const WalkParameters& WalkControl::parametersOf(WalkSet set) const {
 
 WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionRequest& request) const {
   if (request.set != WalkSet::Automatic) return request.set;
-  if (request.kind == MotionRequest::Kind::Stand) return set_;
-  if (selection_.usePositioning && world.ball.known &&
-      world.ball.p_RB.norm() < selection_.positioningDistance) {
-    return WalkSet::Positioning;
-  }
+  const bool stand = request.kind == MotionRequest::Kind::Stand;
+  if (selection_.usePositioning && (stand || isCrowded(world))) return WalkSet::Positioning;
+  if (stand) return set_;
   if (selection_.useSprint && request.kind == MotionRequest::Kind::WalkTo) {
     const Vector2& target = request.target.translation;
     const double angle = std::atan2(target.y(), target.x());
@@ -58,6 +71,16 @@ WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionReque
     }
   }
   return WalkSet::GoToTarget;
+}
+
+bool WalkControl::isCrowded(const world::WorldState& world) const {
+  const double keep = set_ == WalkSet::Positioning ? kKeepSet : 1.0;
+  if (world.ball.known && world.ball.p_RB.norm() < keep * selection_.positioningDistance) return true;
+  const Vector2& p_FR = world.self.X_FR.translation;
+  const double distance = keep * selection_.crowdDistance;
+  const auto self = static_cast<std::size_t>(std::max(world.game.unum, 0));
+  return world.self.localized && (anyWithin(world.teammates, p_FR, distance, self) ||
+                                  anyWithin(world.opponents, p_FR, distance, world.opponents.size()));
 }
 
 // Walks and turns at the same time, always (AAMAS 2012, section 4.2): straight at the target as fast as the

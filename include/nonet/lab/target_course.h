@@ -57,6 +57,8 @@ struct CourseOptions {
   double fallCost = 5.0;  // of reward
   /// Now and then all of the robot gets a velocity, m/s, at most this: what bodies in a duel do.
   double push = 0.0;
+  /// Every second, on average, the other of the sets goToTarget and positioning is asked for.
+  bool changeSets = false;
 };
 
 CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options);
@@ -65,6 +67,7 @@ CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const Course
 struct CourseSummary {
   int courses = 0;
   int falls = 0;           // in all courses, as the task counts them
+  int changeFalls = 0;     // the same while the sets change at random
   double reward = 0.0;     // mean of a course
   double distance = 0.0;   // m, mean of a course
   double stopDrift = 0.0;  // m, mean of a course

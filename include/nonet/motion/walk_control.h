@@ -1,7 +1,9 @@
 // Walk control: a request (stand, velocity, target) -> speed and parameter set for the walk engine.
 //
-// Sets, as in the AAMAS 2012 paper, section 4.2: `walk` (goToTarget) always; `sprint` when the target lies
-// within 15 degrees of the robot's direction; `positioning` within 0.8 m of the ball. Changes are blended.
+// Sets, after the AAMAS 2012 paper, section 4.2: `walk` (goToTarget) always; `sprint` when the target lies
+// within 15 degrees of the robot's direction; `positioning` near the ball (there within 0.8 m of it), and
+// here also near another robot and to stand: it is the set that was learned among pushes. Changes are
+// blended.
 #pragma once
 
 #include "nonet/motion/walk_engine.h"
@@ -22,7 +24,8 @@ struct WalkSelection {
   double sprintAngle = 0.2618;
   double sprintDistance = 0.5;
   double positioningDistance = 0.8;
-  double blendTime = 0.1;
+  double crowdDistance = 1.0;
+  double blendTime = 0.2;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -38,6 +41,12 @@ struct WalkSelection {
     visit(
         {"positioningDistance", Unit::Metre, {0.0, 30.0}, fixed, "Positioning: largest distance of the ball"},
         self.positioningDistance);
+    visit({"crowdDistance",
+           Unit::Metre,
+           {0.0, 30.0},
+           fixed,
+           "Positioning: largest distance of another robot, which may bump into this one"},
+          self.crowdDistance);
     visit({"blendTime", Unit::Second, {0.0, 2.0}, fixed, "Time to change from one set to another"},
           self.blendTime);
   }
@@ -58,6 +67,7 @@ class WalkControl {
 
  private:
   WalkSet chooseSet(const world::WorldState& world, const MotionRequest& request) const;
+  bool isCrowded(const world::WorldState& world) const;
   const WalkParameters& parametersOf(WalkSet set) const;
   Pose2 speedTowards(const MotionRequest& request) const;
 

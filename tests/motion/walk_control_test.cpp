@@ -1,0 +1,102 @@
+#include "nonet/motion/walk_control.h"
+
+#include <gtest/gtest.h>
+
+#include "nonet/model/robot_model.h"
+
+namespace nonet::motion {
+namespace {
+
+class WalkControlTest : public testing::Test {
+ protected:
+  WalkControlTest() {
+    world.game.unum = 5;
+    world.self.localized = true;
+    world.body.cycleTime = kCycleTime;
+    // Team mate 5 is the robot itself.
+    world.teammates[5] = {.X_FP = world.self.X_FR, .known = true};
+    walk.kind = MotionRequest::Kind::WalkTo;
+    walk.target = Pose2(3.0, 0.0, 0.0);
+  }
+  static WalkSelection selection() {
+    WalkSelection chosen;
+    chosen.usePositioning = true;
+    chosen.positioningDistance = 0.5;
+    chosen.crowdDistance = 1.0;
+    return chosen;
+  }
+  WalkSet setFor(const MotionRequest& request) {
+    control.update(world, request, targets);
+    return control.set();
+  }
+  void placeOpponent(double x, bool known = true) {
+    world.opponents[5] = {.X_FP = Pose2(x, 0.0, 0.0), .known = known};
+  }
+
+  world::WorldState world;
+  MotionRequest walk;
+  JointTargets targets;
+  WalkControl control{model::robotModel(0), WalkSets{}, selection()};
+};
+
+TEST_F(WalkControlTest, WalksAloneWithTheGoToTargetSet) {
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+}
+
+TEST_F(WalkControlTest, StandsWithThePositioningSet) {
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+  EXPECT_EQ(setFor(MotionRequest{}), WalkSet::Positioning);
+}
+
+TEST_F(WalkControlTest, TakesThePositioningSetNearOthersAndKeepsItForAWhile) {
+  placeOpponent(1.2);
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+  placeOpponent(0.9);
+  EXPECT_EQ(setFor(walk), WalkSet::Positioning);
+  placeOpponent(1.2);
+  EXPECT_EQ(setFor(walk), WalkSet::Positioning) << "not to and fro at the border";
+  placeOpponent(1.4);
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+}
+
+TEST_F(WalkControlTest, CountsOnlyPlayersItKnows) {
+  placeOpponent(0.4, false);
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+  placeOpponent(0.4);
+  world.self.localized = false;
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget) << "distances mean nothing to who is lost";
+}
+
+TEST_F(WalkControlTest, TakesThePositioningSetNearTheBall) {
+  world.ball.known = true;
+  world.ball.p_RB = Vector2(0.0, 0.6);
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+  world.ball.p_RB = Vector2(0.0, 0.4);
+  EXPECT_EQ(setFor(walk), WalkSet::Positioning);
+}
+
+TEST_F(WalkControlTest, DoesAsTheRequestSays) {
+  placeOpponent(0.4);
+  walk.set = WalkSet::GoToTarget;
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+}
+
+TEST_F(WalkControlTest, SprintsStraightAheadOnly) {
+  WalkSelection chosen = selection();
+  chosen.useSprint = true;
+  chosen.sprintDistance = 1.0;
+  WalkControl sprinter(model::robotModel(0), WalkSets{}, chosen);
+  const auto setOf = [&](const Pose2& target) {
+    walk.target = target;
+    sprinter.update(world, walk, targets);
+    return sprinter.set();
+  };
+  EXPECT_EQ(setOf(Pose2(3.0, 0.5, 0.0)), WalkSet::Sprint);
+  EXPECT_EQ(setOf(Pose2(3.0, 1.0, 0.0)), WalkSet::GoToTarget);
+  EXPECT_EQ(setOf(Pose2(0.9, 0.0, 0.0)), WalkSet::GoToTarget);
+  placeOpponent(0.8);
+  EXPECT_EQ(setOf(Pose2(3.0, 0.0, 0.0)), WalkSet::Positioning) << "others come first";
+}
+
+}  // namespace
+}  // namespace nonet::motion
