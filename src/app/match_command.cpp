@@ -97,6 +97,11 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingFile);
   command->add_option("--right-params", match.right.parameterFiles, "Parameter files of the right team")
       ->check(CLI::ExistingFile);
+  command->add_option("--left-data", match.left.dataFolder, "Folder with the left team's params/ and skills/")
+      ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--right-data", match.right.dataFolder, "The same of the right team: an older state, say")
+      ->check(CLI::ExistingDirectory);
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
   CLI::Option* logs =
       command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");

@@ -130,9 +130,12 @@ class TcpMatch {
   void startAgents() {
     for (const lab::PlayerRecord& player : watcher_.result().players) {
       const lab::AgentChoice agent = lab::agentChoice(options_.match, player.rightTeam, player.unum);
-      std::vector<std::string> command = {executablePath(), "play", "--host", "127.0.0.1",
-                                          // Nothing but the messages may decide what an agent sends.
-                                          "--sync", "on", "--at-once"};
+      // Nothing but the messages may decide what an agent sends.
+      std::vector<std::string> command = {executablePath(), "play", "--host",   "127.0.0.1",
+                                          "--sync",         "on",   "--at-once"};
+      const lab::TeamChoice& team = player.rightTeam ? options_.match.right : options_.match.left;
+      if (!team.dataFolder.empty())
+        command.insert(command.begin(), {"/usr/bin/env", "NONET_DATA=" + team.dataFolder});
       const auto add = [&](const std::string& option, const std::string& value) {
         command.push_back(option);
         command.push_back(value);

@@ -162,7 +162,9 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
   std::vector<InProcessPlayer> players;
   for (const PlayerRecord& record : watcher.result().players) {
     const AgentChoice agent = agentChoice(choice, record.rightTeam, record.unum);
-    players.emplace_back().agent = std::make_unique<agent::Agent>(makeAgentConfig(agent, dataFolder));
+    const std::string& own = record.rightTeam ? choice.right.dataFolder : choice.left.dataFolder;
+    players.emplace_back().agent =
+        std::make_unique<agent::Agent>(makeAgentConfig(agent, own.empty() ? dataFolder : own));
   }
   enter(players, simulation, choice.seed);
   std::optional<sim::MonitorLog> monitorLog;

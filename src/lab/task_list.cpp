@@ -10,9 +10,9 @@
 namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
-  static const std::array<const Task*, 9> tasks{&goToTargetTask(), &duelTask(),       &sprintTask(),
-                                                &getupTask(),      &getupFrontTask(), &getupBackTask(),
-                                                &kickTask(),       &diveTask(),       &quadraticTask()};
+  static const std::array<const Task*, 10> tasks{
+      &goToTargetTask(), &surefootedTask(), &duelTask(), &sprintTask(), &getupTask(),
+      &getupFrontTask(), &getupBackTask(),  &kickTask(), &diveTask(),   &quadraticTask()};
   return tasks;
 }
 

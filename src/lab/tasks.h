@@ -8,6 +8,7 @@
 namespace nonet::lab {
 
 const Task& goToTargetTask();
+const Task& surefootedTask();
 const Task& duelTask();
 const Task& sprintTask();
 const Task& getupTask();

@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kKeepSet = 1.3;  // the positioning set is kept up to this multiple of its distances
 
+constexpr double kCalm =
+    1.0 / 3.0;  // and until tilt errors are below this share of the one that called for it
+
 bool anyWithin(const std::array<world::PlayerState, world::kTeamSize + 1>& players, const Vector2& p_FR,
                double distance, std::size_t besides) {
   for (std::size_t i = 0; i < players.size(); ++i) {
@@ -21,7 +24,12 @@ bool anyWithin(const std::array<world::PlayerState, world::kTeamSize + 1>& playe
 }  // namespace
 
 WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection)
-    : sets_(sets), selection_(selection), engine_(model), from_(sets.goToTarget), active_(sets.goToTarget) {}
+    : sets_(sets),
+      selection_(selection),
+      engine_(model),
+      set_(selection.usePositioning ? WalkSet::Positioning : WalkSet::GoToTarget),
+      from_(parametersOf(set_)),
+      active_(from_) {}
 
 void WalkControl::update(const world::WorldState& world, const MotionRequest& request,
                          JointTargets& targets) {
@@ -61,7 +69,7 @@ const WalkParameters& WalkControl::parametersOf(WalkSet set) const {
 WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionRequest& request) const {
   if (request.set != WalkSet::Automatic) return request.set;
   const bool stand = request.kind == MotionRequest::Kind::Stand;
-  if (selection_.usePositioning && (stand || isCrowded(world))) return WalkSet::Positioning;
+  if (selection_.usePositioning && (stand || stumbles() || isCrowded(world))) return WalkSet::Positioning;
   if (stand) return set_;
   if (selection_.useSprint && request.kind == MotionRequest::Kind::WalkTo) {
     const Vector2& target = request.target.translation;
@@ -71,6 +79,12 @@ WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionReque
     }
   }
   return WalkSet::GoToTarget;
+}
+
+bool WalkControl::stumbles() const {
+  const double share = set_ == WalkSet::Positioning ? kCalm : 1.0;
+  const WalkTrace& trace = engine_.trace();
+  return std::max(std::abs(trace.pitchError), std::abs(trace.rollError)) > share * selection_.positioningTilt;
 }
 
 bool WalkControl::isCrowded(const world::WorldState& world) const {

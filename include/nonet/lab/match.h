@@ -23,11 +23,12 @@ struct TeamChoice {
   std::string name;
   int players = 9;  // numbers 1 to players; 0: the team stays away
   std::vector<std::string> parameterFiles;
+  std::string dataFolder;  // with params/ and skills/; empty: the program's own
 };
 
 struct MatchChoice {
-  TeamChoice left{"Nonet", 9, {}};
-  TeamChoice right{"Guests", 9, {}};
+  TeamChoice left{"Nonet", 9, {}, {}};
+  TeamChoice right{"Guests", 9, {}, {}};
   std::uint64_t seed = 1;
   double minutes = 10.0;   // of game time in all, two halves
   double kickOffWait = 5;  // s of simulated time before each half, to take one's place

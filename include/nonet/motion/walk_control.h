@@ -25,6 +25,7 @@ struct WalkSelection {
   double sprintDistance = 0.5;
   double positioningDistance = 0.8;
   double crowdDistance = 1.0;
+  double positioningTilt = 0.3;
   double blendTime = 0.2;
 
   template <class Self, class Visitor>
@@ -47,6 +48,12 @@ struct WalkSelection {
            fixed,
            "Positioning: largest distance of another robot, which may bump into this one"},
           self.crowdDistance);
+    visit({"positioningTilt",
+           Unit::Radian,
+           {0.0, 3.2},
+           fixed,
+           "Positioning: least tilt error, of a robot that stumbles; kept until it is back at a third"},
+          self.positioningTilt);
     visit({"blendTime", Unit::Second, {0.0, 2.0}, fixed, "Time to change from one set to another"},
           self.blendTime);
   }
@@ -68,6 +75,7 @@ class WalkControl {
  private:
   WalkSet chooseSet(const world::WorldState& world, const MotionRequest& request) const;
   bool isCrowded(const world::WorldState& world) const;
+  bool stumbles() const;
   const WalkParameters& parametersOf(WalkSet set) const;
   Pose2 speedTowards(const MotionRequest& request) const;
 
