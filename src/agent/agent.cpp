@@ -57,6 +57,7 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
     if (s.config.startPose) intent.beam = s.config.startPose;
     effectors.beam = intent.beam;
     s.worldModel.expectBeam(*intent.beam);
+    s.motion.expectPutDown();
   }
   effectors.say = intent.say;
   effectors.pass = intent.pass;

@@ -66,6 +66,7 @@ struct Motion::Stages {
   MotionRequest pending;   // Skill or Kick that was begun
   bool skillDone = false;  // the request that is still made was carried out
   bool started = false;
+  bool putDown = false;  // its steps are over
 };
 
 // A skill or kick that has begun is played to its end. Kicks begin from a quiet stand.
@@ -111,7 +112,8 @@ bool Motion::Stages::startSkill(const world::WorldState& world, const MotionRequ
 }
 
 void Motion::Stages::updateWalk(const world::WorldState& world, const MotionRequest& request) {
-  const bool back = mode != Mode::Walk || !started || state.skillFinished;
+  const bool back = mode != Mode::Walk || !started || state.skillFinished || putDown;
+  putDown = false;
   if (back) walk.reset();
   const model::JointArray before = started ? targets.angles : world.body.joints;
   mode = Mode::Walk;
@@ -124,6 +126,10 @@ Motion::Motion(const model::RobotModel& model, const MotionParameters& parameter
                const std::string& skillFolder)
     : stages_(std::make_unique<Stages>(model, parameters, skillFolder)) {}
 Motion::~Motion() = default;
+
+void Motion::expectPutDown() {
+  stages_->putDown = true;
+}
 
 const MotionState& Motion::state() const {
   return stages_->state;

@@ -49,6 +49,7 @@ TEST_F(WalkControlTest, StandsWithThePositioningSet) {
 }
 
 TEST_F(WalkControlTest, TakesThePositioningSetNearOthersAndKeepsItForAWhile) {
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
   placeOpponent(1.2);
   EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
   placeOpponent(0.9);
@@ -68,11 +69,26 @@ TEST_F(WalkControlTest, CountsOnlyPlayersItKnows) {
 }
 
 TEST_F(WalkControlTest, TakesThePositioningSetNearTheBall) {
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
   world.ball.known = true;
   world.ball.p_RB = Vector2(0.0, 0.6);
   EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
   world.ball.p_RB = Vector2(0.0, 0.4);
   EXPECT_EQ(setFor(walk), WalkSet::Positioning);
+}
+
+TEST_F(WalkControlTest, TakesThePositioningSetUntilAStumbleIsOver) {
+  EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
+  const double tilt = WalkSelection{}.positioningTilt;
+  const auto setAt = [&](double pitch) {
+    world.body.pitch = pitch;
+    setFor(walk);  // the engine learns of it
+    return setFor(walk);
+  };
+  EXPECT_EQ(setAt(0.9 * tilt), WalkSet::GoToTarget);
+  EXPECT_EQ(setAt(1.1 * tilt), WalkSet::Positioning);
+  EXPECT_EQ(setAt(0.5 * tilt), WalkSet::Positioning);
+  EXPECT_EQ(setAt(0.2 * tilt), WalkSet::GoToTarget);
 }
 
 TEST_F(WalkControlTest, DoesAsTheRequestSays) {

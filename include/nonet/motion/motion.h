@@ -28,6 +28,8 @@ class Motion {
 
   const JointTargets& update(const world::WorldState& world, const MotionRequest& request,
                              const HeadRequest& head);
+  /// The robot is about to be put down somewhere at rest (a beam): it stands instead of ending its steps.
+  void expectPutDown();
   const MotionState& state() const;
   /// For measurements and drawings.
   const WalkControl& walk() const;

@@ -1,9 +1,9 @@
 // Walk control: a request (stand, velocity, target) -> speed and parameter set for the walk engine.
 //
 // Sets, after the AAMAS 2012 paper, section 4.2: `walk` (goToTarget) always; `sprint` when the target lies
-// within 15 degrees of the robot's direction; `positioning` near the ball (there within 0.8 m of it), and
-// here also near another robot and to stand: it is the set that was learned among pushes. Changes are
-// blended.
+// within 15 degrees of the robot's direction; `positioning` near the ball (there within 0.8 m of it), and here
+// also near another robot, to stand and while stumbling: it is the set that was learned among pushes. Changes
+// are blended.
 #pragma once
 
 #include "nonet/motion/walk_engine.h"
@@ -23,9 +23,9 @@ struct WalkSelection {
   bool usePositioning = false;
   double sprintAngle = 0.2618;
   double sprintDistance = 0.5;
-  double positioningDistance = 0.8;
-  double crowdDistance = 1.0;
-  double positioningTilt = 0.3;
+  double positioningDistance = 1.2;
+  double crowdDistance = 1.4;
+  double positioningTilt = 0.25;
   double blendTime = 0.2;
 
   template <class Self, class Visitor>
