@@ -11,34 +11,23 @@ namespace {
 constexpr double kFallCost = 20.0;  // rising takes two seconds, in which others have the ball
 constexpr double kPush = 0.4;       // m/s
 
-class DuelTask final : public Task {
+class DuelTask final : public CourseTask {
  public:
-  std::string_view name() const override { return "duel"; }
-  std::string_view description() const override {
-    return "the course of goToTarget with pushes as in a crowd; a fall costs 20 instead of 5";
-  }
-  std::vector<std::string> searchedKeys() const override { return {"motion.positioning."}; }
+  using CourseTask::CourseTask;
 
   // The search begins at the walk set, unless a positioning set was learned before.
   void prepare(agent::AgentParameters& parameters) const override {
     parameters.motion.selection.usePositioning = true;
     startAt(parameters.motion.sets.goToTarget, parameters.motion.sets.positioning);
   }
-
-  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings) const override {
-    CourseOptions options;
-    options.set = motion::WalkSet::Positioning;
-    options.fallCost = kFallCost;
-    options.push = kPush;
-    return courseTask(parameters, seed, settings, options);
-  }
 };
 
 }  // namespace
 
 const Task& duelTask() {
-  static const DuelTask task;
+  static const DuelTask task(
+      "duel", "the course of goToTarget with pushes as in a crowd; a fall costs 20 instead of 5",
+      "motion.positioning.", {.set = motion::WalkSet::Positioning, .fallCost = kFallCost, .push = kPush});
   return task;
 }
 

@@ -5,28 +5,10 @@
 
 namespace nonet::lab {
 
-namespace {
-
-class GoToTargetTask final : public Task {
- public:
-  std::string_view name() const override { return "goToTarget"; }
-  std::string_view description() const override {
-    return "walk the obstacle course with the goToTarget set: fast, agile, without falls";
-  }
-  std::vector<std::string> searchedKeys() const override { return {"motion.walk."}; }
-
-  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings) const override {
-    CourseOptions options;
-    options.set = motion::WalkSet::GoToTarget;
-    return courseTask(parameters, seed, settings, options);
-  }
-};
-
-}  // namespace
-
 const Task& goToTargetTask() {
-  static const GoToTargetTask task;
+  static const CourseTask task("goToTarget",
+                               "walk the obstacle course with the goToTarget set: fast, agile, without falls",
+                               "motion.walk.", {.set = motion::WalkSet::GoToTarget});
   return task;
 }
 

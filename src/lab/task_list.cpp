@@ -43,11 +43,16 @@ void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set) {
   if (config::toToml(set) == config::toToml(untouched)) set = walk;
 }
 
-TaskResult courseTask(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings, CourseOptions options) {
+CourseTask::CourseTask(std::string_view name, std::string_view description, std::string_view key,
+                       const CourseOptions& options)
+    : name_(name), description_(description), key_(key), options_(options) {
   // Who falls so often learns nothing from the rest, and falls take long to simulate.
-  options.mostFalls = 4;
-  const CourseResult course = runCourse(trialSetup(parameters, seed, settings), seed, options);
+  options_.mostFalls = 4;
+}
+
+TaskResult CourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                                const TaskSettings& settings) const {
+  const CourseResult course = runCourse(trialSetup(parameters, seed, settings), seed, options_);
   return {.fitness = course.reward,
           .measures = {{"falls", course.falls},
                        {"targets", course.targets},

@@ -8,30 +8,23 @@ namespace nonet::lab {
 
 namespace {
 
-class SprintTask final : public Task {
+class SprintTask final : public CourseTask {
  public:
-  std::string_view name() const override { return "sprint"; }
-  std::string_view description() const override {
-    return "the course of goToTarget, whose set is frozen; the sprint set runs straight at the target";
-  }
-  std::vector<std::string> searchedKeys() const override { return {"motion.sprint."}; }
+  using CourseTask::CourseTask;
 
   // The search begins at the walk set, unless a sprint set was learned before.
   void prepare(agent::AgentParameters& parameters) const override {
     parameters.motion.selection.useSprint = true;
     startAt(parameters.motion.sets.goToTarget, parameters.motion.sets.sprint);
   }
-
-  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings) const override {
-    return courseTask(parameters, seed, settings, {});
-  }
 };
 
 }  // namespace
 
 const Task& sprintTask() {
-  static const SprintTask task;
+  static const SprintTask task(
+      "sprint", "the course of goToTarget, whose set is frozen; the sprint set runs straight at the target",
+      "motion.sprint.", CourseOptions{});
   return task;
 }
 

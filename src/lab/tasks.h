@@ -24,8 +24,24 @@ TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t se
 /// Where the search for a walk set begins: at `walk`, unless the set was learned before.
 void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set);
 
-/// The course as a task.
-TaskResult courseTask(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings, CourseOptions options);
+/// The obstacle course as a task: one way to walk it, and the set that is learned on it.
+class CourseTask : public Task {
+ public:
+  /// `key`: the prefix of the parameters to move. The texts must outlive the task.
+  CourseTask(std::string_view name, std::string_view description, std::string_view key,
+             const CourseOptions& options);
+
+  std::string_view name() const override { return name_; }
+  std::string_view description() const override { return description_; }
+  std::vector<std::string> searchedKeys() const override { return {std::string(key_)}; }
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override;
+
+ private:
+  std::string_view name_;
+  std::string_view description_;
+  std::string_view key_;
+  CourseOptions options_;
+};
 
 }  // namespace nonet::lab
