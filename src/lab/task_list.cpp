@@ -10,9 +10,9 @@
 namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
-  static const std::array<const Task*, 10> tasks{
-      &goToTargetTask(), &surefootedTask(), &duelTask(), &sprintTask(), &getupTask(),
-      &getupFrontTask(), &getupBackTask(),  &kickTask(), &diveTask(),   &quadraticTask()};
+  static const std::array<const Task*, 11> tasks{
+      &goToTargetTask(), &surefootedTask(), &standardCourseTask(), &duelTask(), &sprintTask(),   &getupTask(),
+      &getupFrontTask(), &getupBackTask(),  &kickTask(),           &diveTask(), &quadraticTask()};
   return tasks;
 }
 
@@ -53,7 +53,7 @@ CourseTask::CourseTask(std::string_view name, std::string_view description, std:
 TaskResult CourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                                 const TaskSettings& settings) const {
   const CourseResult course = runCourse(trialSetup(parameters, seed, settings), seed, options_);
-  return {.fitness = course.reward,
+  return {.fitness = fitness(course),
           .measures = {{"falls", course.falls},
                        {"targets", course.targets},
                        {"reached", course.reached},

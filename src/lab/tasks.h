@@ -9,6 +9,7 @@ namespace nonet::lab {
 
 const Task& goToTargetTask();
 const Task& surefootedTask();
+const Task& standardCourseTask();
 const Task& duelTask();
 const Task& sprintTask();
 const Task& getupTask();
@@ -36,6 +37,10 @@ class CourseTask : public Task {
   std::vector<std::string> searchedKeys() const override { return {std::string(key_)}; }
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override;
+
+ protected:
+  virtual double fitness(const CourseResult& course) const { return course.reward; }
+  int mostFalls() const { return options_.mostFalls; }
 
  private:
   std::string_view name_;

@@ -40,7 +40,8 @@ struct Motion::Stages {
          const std::string& skillFolder)
       : parameters(motionParameters),
         library(skillFolder, motionParameters.skills),
-        stand(WalkEngine::standAngles(robot, motionParameters.standSet())),
+        stand(
+            WalkEngine::standAngles(robot, motionParameters.sets.of(motionParameters.selection.standSet()))),
         player(robot, library, stand),
         walk(robot, motionParameters.sets, motionParameters.selection),
         fall(robot, library, motionParameters.fall, stand),

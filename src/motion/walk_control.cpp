@@ -27,8 +27,8 @@ WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, c
     : sets_(sets),
       selection_(selection),
       engine_(model),
-      set_(selection.usePositioning ? WalkSet::Positioning : WalkSet::GoToTarget),
-      from_(parametersOf(set_)),
+      set_(selection.standSet()),
+      from_(sets_.of(set_)),
       active_(from_) {}
 
 void WalkControl::update(const world::WorldState& world, const MotionRequest& request,
@@ -42,7 +42,7 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& re
   if (blended_ < 1.0) {
     const double time = std::max(selection_.blendTime, kCycleTime);
     blended_ = std::min(1.0, blended_ + world.body.cycleTime / time);
-    active_ = blend(from_, parametersOf(set_), blended_);
+    active_ = blend(from_, sets_.of(set_), blended_);
   }
   const bool walk =
       request.kind == MotionRequest::Kind::WalkVelocity || request.kind == MotionRequest::Kind::WalkTo;
@@ -53,17 +53,6 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& re
   }
   if (request.kind == MotionRequest::Kind::WalkTo) speed = speedTowards(request);
   engine_.update(world.body, active_, speed, walk, targets);
-}
-
-const WalkParameters& WalkControl::parametersOf(WalkSet set) const {
-  switch (set) {
-    case WalkSet::Sprint:
-      return sets_.sprint;
-    case WalkSet::Positioning:
-      return sets_.positioning;
-    default:
-      return sets_.goToTarget;
-  }
 }
 
 WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionRequest& request) const {

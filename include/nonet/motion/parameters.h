@@ -45,9 +45,6 @@ struct MotionParameters {
   TransitionParameters transition;
   WalkSelection selection;
   WalkSets sets;
-  const WalkParameters& standSet() const {
-    return selection.usePositioning ? sets.positioning : sets.goToTarget;
-  }
   HeadParameters head;
   FallParameters fall;
   SkillParameters skills;

@@ -16,6 +16,17 @@ struct WalkSets {
   WalkParameters goToTarget;
   WalkParameters sprint;
   WalkParameters positioning;
+
+  const WalkParameters& of(WalkSet set) const {
+    switch (set) {
+      case WalkSet::Sprint:
+        return sprint;
+      case WalkSet::Positioning:
+        return positioning;
+      default:
+        return goToTarget;
+    }
+  }
 };
 
 struct WalkSelection {
@@ -27,6 +38,9 @@ struct WalkSelection {
   double crowdDistance = 1.4;
   double positioningTilt = 0.25;
   double blendTime = 0.2;
+
+  /// The set whose stand the robot takes: where rising ends and skills begin.
+  WalkSet standSet() const { return usePositioning ? WalkSet::Positioning : WalkSet::GoToTarget; }
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -76,7 +90,6 @@ class WalkControl {
   WalkSet chooseSet(const world::WorldState& world, const MotionRequest& request) const;
   bool isCrowded(const world::WorldState& world) const;
   bool stumbles() const;
-  const WalkParameters& parametersOf(WalkSet set) const;
   Pose2 speedTowards(const MotionRequest& request) const;
 
   WalkSets sets_;
