@@ -8,6 +8,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr double kFallCost = 20.0;  // most falls happen where the sprint ends: too few to be felt at 5
+
 class SprintTask final : public CourseTask {
  public:
   using CourseTask::CourseTask;
@@ -24,7 +26,7 @@ class SprintTask final : public CourseTask {
 const Task& sprintTask() {
   static const SprintTask task(
       "sprint", "the course of goToTarget, whose set is frozen; the sprint set runs straight at the target",
-      "motion.sprint.", CourseOptions{});
+      "motion.sprint.", {.fallCost = kFallCost});
   return task;
 }
 
