@@ -24,9 +24,10 @@ class SprintTask final : public CourseTask {
 }  // namespace
 
 const Task& sprintTask() {
-  static const SprintTask task(
-      "sprint", "the course of goToTarget, whose set is frozen; the sprint set runs straight at the target",
-      "motion.sprint.", {.fallCost = kFallCost});
+  static const SprintTask task("sprint",
+                               "the course with the goToTarget set frozen; the sprint set runs straight "
+                               "ahead; a fall costs 20 instead of 5",
+                               "motion.sprint.", {.fallCost = kFallCost});
   return task;
 }
 

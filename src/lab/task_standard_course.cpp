@@ -10,7 +10,6 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kFallCost = 10.0;  // s
-constexpr double kPush = 0.15;      // m/s
 constexpr double kGivenUp = 300.0;  // s, for a course that was left after the last fall
 
 class StandardCourseTask final : public CourseTask {
@@ -29,7 +28,7 @@ class StandardCourseTask final : public CourseTask {
 const Task& standardCourseTask() {
   static const StandardCourseTask task(
       "standardCourse", "the time for the course of goToTarget, walked with all sets; a fall costs 10 s",
-      "motion.walk.", {.untilReached = true, .push = kPush});
+      "motion.walk.", {.untilReached = true, .push = kLightPush});
   return task;
 }
 

@@ -9,14 +9,13 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kFallCost = 20.0;
-constexpr double kPush = 0.15;  // m/s
 
 }  // namespace
 
 const Task& surefootedTask() {
   static const CourseTask task(
       "surefooted", "the course of goToTarget with light pushes; a fall costs 20 instead of 5",
-      "motion.walk.", {.set = motion::WalkSet::GoToTarget, .fallCost = kFallCost, .push = kPush});
+      "motion.walk.", {.set = motion::WalkSet::GoToTarget, .fallCost = kFallCost, .push = kLightPush});
   return task;
 }
 

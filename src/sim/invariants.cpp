@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,17 +41,12 @@ void Invariants::checkRobot(const World& world, RobotHandle robot) {
   for (const model::BodySpec& body : model.bodies()) {
     checkBody(world.bodyState(robot, body.id), robot, body.id);
   }
-  const auto [found, isNew] = beyond_.try_emplace(robot);
-  if (isNew) found->second.fill(0.0);
   for (const model::JointSpec& joint : model.joints()) {
     const double angle = toRadians(world.jointAngleDegrees(robot, joint.id));
     const double beyond = std::max(joint.low - angle, angle - joint.high);
     extremes_.overshoot = std::max(extremes_.overshoot, beyond);
-    const double before = std::exchange(found->second[model::index(joint.id)], beyond);
-    const bool turnsBack = beyond < before;
-    const double steps = before <= 0.0 || turnsBack ? limits_.overpoweredSteps : limits_.overshootSteps;
-    if (beyond <= steps * joint.maxSpeed * kCycleTime + limits_.overshootMargin)
-      continue;  // false for a NaN too
+    const double allowed = limits_.overshootSteps * joint.maxSpeed * kCycleTime + limits_.overshootMargin;
+    if (beyond <= allowed) continue;  // false for a NaN too
     violate(fmt::format("{} of robot {} is at {:.2f} deg, {:.2f} deg beyond its stop",
                         model::perceptorName(joint.id), robot, toDegrees(angle), toDegrees(beyond)));
   }

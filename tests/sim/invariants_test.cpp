@@ -63,17 +63,6 @@ TEST_F(BrokenWorld, JointFarBeyondItsStop) {
   EXPECT_NEAR(invariants.extremes().overshoot, 1.2 - 0.7854, 1e-3);
 }
 
-TEST_F(BrokenWorld, OverpoweredJointMustTurnBackAtOnce) {
-  World::BodyState state = world().bodyState(robot_, model::BodyId::Head);
-  state.orientation = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX());  // 12 degrees beyond its stop
-  world().setBodyState(robot_, model::BodyId::Head, state);
-  Invariants invariants;
-  invariants.check(simulation_);
-  EXPECT_EQ(invariants.violations(), 0U) << "one cycle from within the stops";
-  invariants.check(simulation_);
-  EXPECT_THAT(invariants.messages(), ElementsAre(HasSubstr("hj2"))) << "and stays there";
-}
-
 TEST_F(BrokenWorld, CommandThatIsNoNumberReachesNoJoint) {
   world().setJointSpeed(robot_, model::JointId::Head1, 1.0F);
   world().setJointSpeed(robot_, model::JointId::Head1, std::numeric_limits<float>::quiet_NaN());

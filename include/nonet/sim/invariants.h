@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -13,17 +12,13 @@
 namespace nonet::sim {
 
 struct InvariantLimits {
-  /// A stop acts once a joint is beyond it, so a joint driven into one overshoots by up to one step at its
-  /// greatest speed (server facts 2.4): 7.03 degrees in the recordings, which is that. Contacts can press it
-  /// a little further.
+  /// A joint driven into a stop overshoots by up to one step at its greatest speed (server facts 2.4): the
+  /// recordings show 7.03 degrees at most, which is that. Contacts can press it a little further.
   double overshootSteps = 1.0;
   double overshootMargin = 0.05;  // rad
-  /// The same when a collision overpowers the motor, for one cycle: the joint comes from within its stops and
-  /// turns back at once. In games on the real server joints make up to 1.7 steps in a cycle.
-  double overpoweredSteps = 2.5;
-  double lowestCentre = -0.05;  // m, of any body; the recordings' lowest is a foot at -0.01
-  double highestCentre = 12.0;  // m; who is refused drops from 10 (server facts 1.3)
-  double fastestBody = 20.0;    // m/s; falls and kicks stay below 10
+  double lowestCentre = -0.05;    // m, of any body; the recordings' lowest is a foot at -0.01
+  double highestCentre = 12.0;    // m; who is refused drops from 10 (server facts 1.3)
+  double fastestBody = 20.0;      // m/s; falls and kicks stay below 10
 };
 
 /// The farthest that anything has come.
@@ -52,7 +47,6 @@ class Invariants {
 
   InvariantLimits limits_;
   InvariantExtremes extremes_;
-  std::map<RobotHandle, model::JointArray> beyond_;  // in the last cycle, rad
   std::uint64_t violations_ = 0;
   std::vector<std::string> messages_;
   double time_ = 0.0;
