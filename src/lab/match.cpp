@@ -157,6 +157,7 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
                           const MatchObservers& observers) {
   sim::Settings settings = matchSettings(choice);
   settings.threads = threads;
+  settings.threadPatience = 300;  // us: longer than what is done by one thread alone in a cycle
   sim::Simulation simulation(settings, choice.seed);
   MatchWatcher watcher(choice);
   std::vector<InProcessPlayer> players;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 // The work is written once, with GCC's vector types, and compiled twice: for every processor, and for those
@@ -24,7 +25,7 @@ struct Quad {
   using Numbers = double __attribute__((vector_size(32)));
   Numbers v;
 
-  NONET_INLINE explicit Quad(double all) : v(Numbers{} + all) {}
+  NONET_INLINE explicit Quad(double all) : v(Numbers{all, all, all, all}) {}
   NONET_INLINE explicit Quad(const double* p) { __builtin_memcpy(&v, p, sizeof(v)); }
   NONET_INLINE void store(double* p) const { __builtin_memcpy(p, &v, sizeof(v)); }
   NONET_INLINE void addProduct(const Quad& a, const Quad& b) { v += a.v * b.v; }
@@ -98,7 +99,8 @@ NONET_INLINE void solveLastRows(const double* l, double* b, unsigned n, std::siz
   }
 }
 
-NONET_INLINE void solveL1Body(const double* l, double* b, unsigned n, std::size_t skip) {
+NONET_INLINE void solveL1Body(const double* l, double* b, unsigned n, std::size_t skip,
+                              const Blocks& blocks) {
   thread_local std::vector<double> buffer;
   const unsigned whole = n - n % 4;
   double* sums = scratch(buffer, whole);
@@ -108,10 +110,17 @@ NONET_INLINE void solveL1Body(const double* l, double* b, unsigned n, std::size_
     const double* last = b + i - 4;
     const bool zero = last[0] == 0.0 && last[1] == 0.0 && last[2] == 0.0 && last[3] == 0.0;
     const Known known(last);
-    if (!zero) addColumns(l, skip, i, i - 4, known, sums);
+    const auto below = zero ? std::span<const unsigned>() : blocks.below(i - 4);
+    const bool nextToo = !below.empty() && below.front() == i;
+    if (nextToo || (!zero && i >= blocks.rows())) addColumns(l, skip, i, i - 4, known, sums);
     solveBlock(l, skip, i, sums, b);
     if (zero) continue;  // the products are zero and change no sum
-    for (unsigned row = i + 4; row < whole; row += 4) addColumns(l, skip, row, i - 4, known, sums);
+    for (const unsigned row : below.subspan(nextToo ? 1 : 0)) {
+      addColumns(l, skip, row, i - 4, known, sums);
+    }
+    for (unsigned row = std::max(i + 4, blocks.rows()); row < whole; row += 4) {
+      addColumns(l, skip, row, i - 4, known, sums);
+    }
   }
   if (n % 4 == 1) solveLastRows<1>(l, b, n, skip);
   if (n % 4 == 2) solveLastRows<2>(l, b, n, skip);
@@ -157,7 +166,8 @@ NONET_INLINE void startTransposed(const double* l, double* b, unsigned n, std::s
   }
 }
 
-NONET_INLINE void solveL1TransposedBody(const double* l, double* b, unsigned n, std::size_t skip) {
+NONET_INLINE void solveL1TransposedBody(const double* l, double* b, unsigned n, std::size_t skip,
+                                        const Blocks& blocks) {
   thread_local std::vector<double> buffer;
   const unsigned whole = n - n % 4;
   double* sums = scratch(buffer, whole);
@@ -167,64 +177,141 @@ NONET_INLINE void solveL1TransposedBody(const double* l, double* b, unsigned n, 
   solveBlockTransposed(l, skip, whole - 4, sums, b);
   for (unsigned i = whole - 4; i > 0; i -= 4) {  // the last block solved
     const Known known(b + i);
-    addRows(l, skip, i, i - 4, known, sums);
+    if (i >= blocks.rows()) {
+      addRows(l, skip, i, i - 4, known, sums);
+      solveBlockTransposed(l, skip, i - 4, sums, b);
+      for (unsigned column = 0; column + 4 < i; column += 4) addRows(l, skip, i, column, known, sums);
+      continue;
+    }
+    auto left = blocks.left(i);
+    if (!left.empty() && left.back() == i - 4) {
+      addRows(l, skip, i, i - 4, known, sums);
+      left = left.first(left.size() - 1);
+    }
     solveBlockTransposed(l, skip, i - 4, sums, b);
-    for (unsigned column = 0; column + 4 < i; column += 4) addRows(l, skip, i, column, known, sums);
+    for (const unsigned column : left) addRows(l, skip, i, column, known, sums);
   }
 }
 
 // ---- L D L^T
-// ODE goes row pair by row pair; here it goes by pairs of columns, so that the sums of many rows advance
-// together. `columns` holds X = L D by columns.
+// ODE sums up each row when its turn comes; here the products of a finished pair of columns go to the sums of
+// all columns that are still to come: the same products in the same order. Blocks of rows in which the pair
+// is zero are left out.
 
-/// The columns k in which the rows i and i + 1 of L are not both zero, and what they hold. A product with
-/// zero changes no sum, so the others need not be looked at; a robot's joints leave most of them zero.
-struct RowPair {
-  std::vector<unsigned> k;
-  std::vector<double> first;
-  std::vector<double> second;
-  unsigned count = 0;
+/// The lower triangle, column by column with `stride` numbers from one to the next.
+struct Columns {
+  std::size_t stride;
+  double* x;             // X = L D; what `a` holds before it is a column's turn
+  double* sums;          // what X's numbers are still to lose
+  unsigned char* given;  // by blocks of rows and columns: not all zero in `a`
+  unsigned* rows;        // first rows of the blocks that matter in the pair of columns in hand
+  unsigned count = 0;    // of those rows
 
-  NONET_INLINE void read(const double* row, unsigned skip, unsigned length) {
-    if (k.size() < length) {
-      k.resize(length);
-      first.resize(length);
-      second.resize(length);
+  struct Memory {
+    std::vector<double> x;
+    std::vector<double> sums;
+    std::vector<unsigned char> given;
+    std::vector<unsigned> rows;
+  };
+
+  NONET_INLINE Columns(unsigned n, Memory& memory) : stride(n + 8 - n % 4) {
+    x = scratch(memory.x, stride * (n + 4));
+    sums = scratch(memory.sums, stride * (n + 4));
+    memory.given.assign((stride / 4) * (stride / 4), 0);
+    given = memory.given.data();
+    if (memory.rows.size() < stride / 4) memory.rows.resize(stride / 4);
+    rows = memory.rows.data();
+    for (unsigned k = 0; k < n; ++k) {
+      const std::size_t begin = k * stride + k - k % 4;
+      std::fill_n(x + begin, stride - k + k % 4, 0.0);
+      std::fill_n(sums + begin, stride - k + k % 4, 0.0);
     }
-    count = 0;
-    for (unsigned column = 0; column < length; ++column) {
-      k[count] = column;
-      first[count] = row[column];
-      second[count] = row[column + skip];
-      if (first[count] != 0.0 || second[count] != 0.0) ++count;
+  }
+
+  NONET_INLINE void read(const double* a, unsigned n, unsigned skip) const {
+    for (unsigned row = 0; row < n; row += 4) {
+      for (unsigned column = 0; column < row; column += 4) {
+        if (row + 4 <= n) {
+          readBlock(a, skip, row, column);
+        } else {
+          readNumbers(a, skip, row, n, column);
+        }
+      }
+      readNumbers(a, skip, row, std::min(row + 4, n), row);
+    }
+  }
+
+ private:
+  NONET_INLINE void readBlock(const double* a, unsigned skip, unsigned row, unsigned column) const {
+    using Bits = long long __attribute__((vector_size(32)));
+    const double* at = a + std::size_t{row} * skip + column;
+    Bits lines[4];
+    for (int r = 0; r < 4; ++r) __builtin_memcpy(&lines[r], at + r * std::size_t{skip}, sizeof(Bits));
+    const Bits any = lines[0] | lines[1] | lines[2] | lines[3];
+    if ((any[0] | any[1] | any[2] | any[3]) == 0) return;
+    given[(row / 4) * (stride / 4) + column / 4] = 1;
+    Quad first(0.0);
+    Quad second(0.0);
+    for (unsigned k = 0; k < 4; k += 2) {
+      loadColumns(at + k, skip, first, second);
+      first.store(x + (column + k) * stride + row);
+      second.store(x + (column + k + 1) * stride + row);
+    }
+  }
+
+  /// The last rows, and the blocks on the diagonal.
+  NONET_INLINE void readNumbers(const double* a, unsigned skip, unsigned row, unsigned end,
+                                unsigned column) const {
+    given[(row / 4) * (stride / 4) + column / 4] = 1;
+    for (unsigned r = row; r < end; ++r) {
+      for (unsigned k = column; k < column + 4 && k <= r; ++k) {
+        x[k * stride + r] = a[std::size_t{r} * skip + k];
+      }
     }
   }
 };
 
-/// Columns i and i + 1 of X for the rows r ... r + 4 Quads - 1: what the columns hold minus the sums.
-template <int Quads>
-NONET_INLINE void subtractSums(const RowPair& rows, double* columns, std::size_t stride, unsigned i,
-                               unsigned r) {
-  Quad::Numbers first[Quads] = {};
-  Quad::Numbers second[Quads] = {};
-  for (unsigned index = 0; index < rows.count; ++index) {
-    const double* column = columns + rows.k[index] * stride + r;
-    const Quad l1(rows.first[index]);
-    const Quad l2(rows.second[index]);
-    for (int q = 0; q < Quads; ++q) {
-      const Quad x(column + 4 * q);
-      first[q] += l1.v * x.v;
-      second[q] += l2.v * x.v;
+/// Takes their sums from the columns i and i + 1 and lists the blocks of rows that matter in them.
+NONET_INLINE double finishPair(Columns& columns, double* d, unsigned i, unsigned n) {
+  double* first = columns.x + i * columns.stride;
+  double* second = first + columns.stride;
+  const double* firstSums = columns.sums + i * columns.stride;
+  const double* secondSums = firstSums + columns.stride;
+  d[i] = 1.0 / (first[i] - firstSums[i]);
+  const double coupling = (first[i + 1] - firstSums[i + 1]) * d[i];
+  const Quad share(coupling);
+  columns.count = 0;
+  for (unsigned r = i - i % 4; r < n; r += 4) {
+    Quad x1(first + r);
+    Quad x2(second + r);
+    x1.v -= Quad(firstSums + r).v;
+    x2.v -= Quad(secondSums + r).v;
+    x2.v -= share.v * x1.v;
+    x1.store(first + r);
+    x2.store(second + r);
+    const auto filled = (x1.v != 0.0) | (x2.v != 0.0);
+    if ((filled[0] | filled[1] | filled[2] | filled[3]) != 0 ||
+        columns.given[(r / 4) * (columns.stride / 4) + i / 4] != 0) {
+      columns.rows[columns.count++] = r;
     }
   }
-  double* target = columns + i * stride + r;
-  for (int q = 0; q < Quads; ++q, target += 4) {
-    Quad x1(target);
-    Quad x2(target + stride);
-    x1.v -= first[q];
-    x2.v -= second[q];
-    x1.store(target);
-    x2.store(target + stride);
+  d[i + 1] = 1.0 / second[i + 1];
+  return coupling;
+}
+
+/// Adds the products of the finished columns i and i + 1 with row j of L to the sums of column j.
+NONET_INLINE void addPair(const Columns& columns, unsigned i, unsigned j, double l1, double l2,
+                          std::span<const unsigned> rows) {
+  const double* first = columns.x + i * columns.stride;
+  const double* second = first + columns.stride;
+  double* sums = columns.sums + j * columns.stride;
+  const Quad factor1(l1);
+  const Quad factor2(l2);
+  for (const unsigned r : rows) {
+    Quad sum(sums + r);
+    sum.addProduct(factor1, Quad(first + r));
+    sum.addProduct(factor2, Quad(second + r));
+    sum.store(sums + r);
   }
 }
 
@@ -241,42 +328,36 @@ NONET_INLINE void factorLastRow(double* row, double* d, const double* columns, s
 }
 
 NONET_INLINE void factorBody(double* a, double* d, unsigned n, unsigned skip) {
-  thread_local std::vector<double> buffer;
-  thread_local RowPair rows;
-  const std::size_t stride = n + 16 - n % 4;  // up to 16 rows are handled at once, the last ones in vain
-  double* columns = scratch(buffer, stride * (n + 1));
-  for (unsigned r = 0; r < n; ++r) {
-    for (unsigned k = 0; k <= r; ++k) columns[k * stride + r] = a[std::size_t{r} * skip + k];
-  }
+  thread_local Columns::Memory memory;
+  Columns columns(n, memory);
+  columns.read(a, n, skip);
   for (unsigned i = 0; i + 1 < n; i += 2) {
-    double* row = a + std::size_t{i} * skip;
-    // Rows i and i + 1 of L are complete up to column i.
-    rows.read(row, skip, i);
-    unsigned r = i - i % 4;
-    for (; r + 8 < n; r += 16) subtractSums<4>(rows, columns, stride, i, r);
-    for (; r < n; r += 8) subtractSums<2>(rows, columns, stride, i, r);
-    double* first = columns + i * stride;
-    double* second = first + stride;
-    d[i] = 1.0 / first[i];
-    const double coupling = first[i + 1] * d[i];
-    for (r = i + 1; r < n; ++r) second[r] -= coupling * first[r];
-    d[i + 1] = 1.0 / second[i + 1];
-    row[skip + i] = coupling;
-    for (r = i + 2; r < n; ++r) {
-      a[std::size_t{r} * skip + i] = first[r] * d[i];
-      a[std::size_t{r} * skip + i + 1] = second[r] * d[i + 1];
+    a[std::size_t{i + 1} * skip + i] = finishPair(columns, d, i, n);
+    const double* first = columns.x + i * columns.stride;
+    const double* second = first + columns.stride;
+    for (unsigned block = 0; block < columns.count; ++block) {
+      const auto rows = std::span<const unsigned>(columns.rows, columns.count).subspan(block);
+      const unsigned end = std::min(rows.front() + 4, n);
+      for (unsigned j = std::max(rows.front(), i + 2); j < end; ++j) {
+        double* row = a + std::size_t{j} * skip + i;
+        row[0] = first[j] * d[i];
+        row[1] = second[j] * d[i + 1];
+        if (row[0] != 0.0 || row[1] != 0.0) addPair(columns, i, j, row[0], row[1], rows);
+      }
     }
   }
-  if (n % 2 != 0) factorLastRow(a + std::size_t{n - 1} * skip, d, columns, stride, n - 1);
+  if (n % 2 != 0) factorLastRow(a + std::size_t{n - 1} * skip, d, columns.x, columns.stride, n - 1);
 }
 
 // ---- both instances
 
-[[gnu::target("avx2")]] void solveL1Avx2(const double* l, double* b, unsigned n, unsigned skip) {
-  solveL1Body(l, b, n, skip);
+[[gnu::target("avx2")]] void solveL1Avx2(const double* l, double* b, unsigned n, unsigned skip,
+                                         const Blocks& blocks) {
+  solveL1Body(l, b, n, skip, blocks);
 }
-[[gnu::target("avx2")]] void solveL1TransposedAvx2(const double* l, double* b, unsigned n, unsigned skip) {
-  solveL1TransposedBody(l, b, n, skip);
+[[gnu::target("avx2")]] void solveL1TransposedAvx2(const double* l, double* b, unsigned n, unsigned skip,
+                                                   const Blocks& blocks) {
+  solveL1TransposedBody(l, b, n, skip, blocks);
 }
 [[gnu::target("avx2")]] void factorAvx2(double* a, double* d, unsigned n, unsigned skip) {
   factorBody(a, d, n, skip);
@@ -285,16 +366,69 @@ NONET_INLINE void factorBody(double* a, double* d, unsigned n, unsigned skip) {
 const bool hasAvx2 = __builtin_cpu_supports("avx2");
 thread_local unsigned long calls = 0;
 
+/// The factor ODE works on. It appends rows to it and takes such rows away again, but those that the
+/// factorization left stay as they are while it solves with it.
+thread_local struct {
+  const double* l = nullptr;
+  unsigned skip = 0;
+  Blocks blocks;
+} current;
+
+const Blocks& blocksOf(const double* l, unsigned n, unsigned skip) {
+  if (l != current.l || skip != current.skip || n < current.blocks.rows()) {
+    // Another system, perhaps in the same memory: it starts with fewer rows, or with a factorization.
+    current.l = nullptr;
+    current.blocks.clear();
+  }
+  return current.blocks;
+}
+
 }  // namespace
+
+void Blocks::clear() {
+  rows_ = 0;
+  inRow_.clear();
+  inColumn_.clear();
+  rowBegin_.assign(1, 0);
+  columnBegin_.assign(1, 0);
+}
+
+void Blocks::read(const double* l, unsigned n, unsigned skip) {
+  clear();
+  rows_ = n - n % 4;
+  const unsigned lines = rows_ / 4;
+  full_.assign(std::size_t{lines} * lines, 0);
+  const auto zero = [l, skip](unsigned row, unsigned column) {
+    const double* at = l + std::size_t{row} * skip + column;
+    for (unsigned r = 0; r < 4; ++r, at += skip) {
+      if (at[0] != 0.0 || at[1] != 0.0 || at[2] != 0.0 || at[3] != 0.0) return false;
+    }
+    return true;
+  };
+  for (unsigned row = 0; row < lines; ++row) {
+    for (unsigned column = 0; column < row; ++column) {
+      if (zero(4 * row, 4 * column)) continue;
+      inRow_.push_back(4 * column);
+      full_[std::size_t{column} * lines + row] = 1;
+    }
+    rowBegin_.push_back(static_cast<unsigned>(inRow_.size()));
+  }
+  for (unsigned column = 0; column < lines; ++column) {
+    for (unsigned row = column + 1; row < lines; ++row) {
+      if (full_[std::size_t{column} * lines + row] != 0) inColumn_.push_back(4 * row);
+    }
+    columnBegin_.push_back(static_cast<unsigned>(inColumn_.size()));
+  }
+}
 
 void factorLdlt(double* a, double* d, unsigned n, unsigned skip) {
   hasAvx2 ? factorAvx2(a, d, n, skip) : factorBody(a, d, n, skip);
 }
-void solveL1(const double* l, double* b, unsigned n, unsigned skip) {
-  hasAvx2 ? solveL1Avx2(l, b, n, skip) : solveL1Body(l, b, n, skip);
+void solveL1(const double* l, double* b, unsigned n, unsigned skip, const Blocks& blocks) {
+  hasAvx2 ? solveL1Avx2(l, b, n, skip, blocks) : solveL1Body(l, b, n, skip, blocks);
 }
-void solveL1Transposed(const double* l, double* b, unsigned n, unsigned skip) {
-  hasAvx2 ? solveL1TransposedAvx2(l, b, n, skip) : solveL1TransposedBody(l, b, n, skip);
+void solveL1Transposed(const double* l, double* b, unsigned n, unsigned skip, const Blocks& blocks) {
+  hasAvx2 ? solveL1TransposedAvx2(l, b, n, skip, blocks) : solveL1TransposedBody(l, b, n, skip, blocks);
 }
 void link() {}
 unsigned long callsByOde() {
@@ -318,14 +452,17 @@ template <>
 void factorMatrixAsLDLT<1>(double* a, double* d, unsigned n, unsigned skip) {
   ++kernels::calls;
   kernels::factorLdlt(a, d, n, skip);
+  kernels::current.l = a;
+  kernels::current.skip = skip;
+  kernels::current.blocks.read(a, n, skip);
 }
 template <>
 void solveL1Straight<1>(const double* l, double* b, unsigned n, unsigned skip) {
   ++kernels::calls;
-  kernels::solveL1(l, b, n, skip);
+  kernels::solveL1(l, b, n, skip, kernels::blocksOf(l, n, skip));
 }
 template <>
 void solveL1Transposed<1>(const double* l, double* b, unsigned n, unsigned skip) {
   ++kernels::calls;
-  kernels::solveL1Transposed(l, b, n, skip);
+  kernels::solveL1Transposed(l, b, n, skip, kernels::blocksOf(l, n, skip));
 }

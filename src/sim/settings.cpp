@@ -118,6 +118,8 @@ void describe(Self& s, Visitor&& visit) {
   visit("QuickSolver", s.quickSolver, count, "the quick stepper instead of ODE's exact one");
 
   visit("Threads", s.threads, Bounds{1, 256}, "threads that step the physics; without effect on the result");
+  visit("ThreadPatience", s.threadPatience, Bounds{0, 1e6},
+        "us for which one of them looks out for work before it sleeps; 0 leaves the cores to the agents");
 }
 
 double toNumber(std::string_view name, std::string_view text) {
@@ -303,6 +305,7 @@ WorldSettings Settings::world() const {
   WorldSettings world;
   world.solver = quickSolver ? WorldSettings::Solver::Quick : WorldSettings::Solver::Exact;
   world.threads = threads;
+  world.threadPatience = std::chrono::microseconds(threadPatience);
   world.fieldLength = fieldLength;
   world.fieldWidth = fieldWidth;
   world.goalWidth = goalWidth;

@@ -8,7 +8,7 @@
 namespace nonet::sim {
 
 World::Implementation::Implementation(const WorldSettings& worldSettings)
-    : settings(worldSettings), workers(worldSettings.threads) {
+    : settings(worldSettings), workers(worldSettings.threads, worldSettings.threadPatience) {
   prepareOdeThread();
   space = dHashSpaceCreate(nullptr);
   dSpaceSetCleanup(space, 0);

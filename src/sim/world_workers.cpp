@@ -16,7 +16,7 @@ void prepareOdeThread() {
   static_cast<void>(prepared);
 }
 
-StepWorkers::StepWorkers(int threads) {
+StepWorkers::StepWorkers(int threads, std::chrono::microseconds patience) : patience_(patience) {
   for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { serve(); });
 }
 
@@ -27,6 +27,14 @@ StepWorkers::~StepWorkers() {
   }
   begin_.notify_all();
   for (std::thread& thread : threads_) thread.join();
+}
+
+/// Returns once `happened` or after `patience_`. To be woken takes longer than most waits within a cycle.
+template <typename Happened>
+void StepWorkers::lookOut(const Happened& happened) const {
+  if (patience_.count() == 0) return;
+  const auto end = std::chrono::steady_clock::now() + patience_;
+  while (!happened() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
 }
 
 void StepWorkers::run(std::size_t count, const std::function<void(std::size_t)>& work) {
@@ -44,6 +52,7 @@ void StepWorkers::run(std::size_t count, const std::function<void(std::size_t)>&
   }
   if (!alone) begin_.notify_all();
   takePieces();
+  lookOut([this] { return busy_ == 0; });
   std::unique_lock lock(mutex_);
   end_.wait(lock, [this] { return busy_ == 0; });
   if (error_) std::rethrow_exception(error_);
@@ -64,6 +73,7 @@ void StepWorkers::serve() {
   prepareOdeThread();
   std::size_t served = 0;
   while (true) {
+    lookOut([&] { return stop_ || round_ != served; });
     {
       std::unique_lock lock(mutex_);
       begin_.wait(lock, [&] { return stop_ || round_ != served; });

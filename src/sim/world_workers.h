@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -14,8 +15,9 @@ namespace nonet::sim {
 
 class StepWorkers {
  public:
-  /// `threads` counts the caller: with 1 there are no others.
-  explicit StepWorkers(int threads);
+  /// `threads` counts the caller: with 1 there are no others. One that has nothing to do looks out for work
+  /// for `patience` before it sleeps; whatever else wants its core meanwhile gets it.
+  explicit StepWorkers(int threads, std::chrono::microseconds patience = std::chrono::microseconds(0));
   ~StepWorkers();
   StepWorkers(const StepWorkers&) = delete;
   StepWorkers& operator=(const StepWorkers&) = delete;
@@ -27,7 +29,10 @@ class StepWorkers {
  private:
   void serve();
   void takePieces();
+  template <typename Happened>
+  void lookOut(const Happened& happened) const;
 
+  std::chrono::microseconds patience_;
   std::vector<std::thread> threads_;
   std::mutex mutex_;
   std::condition_variable begin_;
@@ -35,10 +40,10 @@ class StepWorkers {
   const std::function<void(std::size_t)>* work_ = nullptr;
   std::size_t count_ = 0;
   std::atomic<std::size_t> next_{0};
-  std::size_t round_ = 0;
-  std::size_t busy_ = 0;
+  std::atomic<std::size_t> round_{0};
+  std::atomic<std::size_t> busy_{0};
   std::exception_ptr error_;
-  bool stop_ = false;
+  std::atomic<bool> stop_{false};
 };
 
 /// ODE wants one global initialisation, and data of its own for each thread that uses it.

@@ -10,11 +10,13 @@ namespace {
 
 TEST(StepWorkers, DoEveryPieceOnce) {
   for (const int threads : {1, 2, 4}) {
-    StepWorkers workers(threads);
-    for (const std::size_t count : {0U, 1U, 5U, 100U}) {
-      std::vector<std::atomic<int>> done(count);
-      workers.run(count, [&](std::size_t i) { ++done[i]; });
-      for (const auto& times : done) EXPECT_EQ(times, 1);
+    for (const int patience : {0, 1, 1000}) {
+      StepWorkers workers(threads, std::chrono::microseconds(patience));
+      for (const std::size_t count : {0U, 1U, 5U, 100U, 3U}) {
+        std::vector<std::atomic<int>> done(count);
+        workers.run(count, [&](std::size_t i) { ++done[i]; });
+        for (const auto& times : done) EXPECT_EQ(times, 1);
+      }
     }
   }
 }

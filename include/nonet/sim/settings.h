@@ -123,6 +123,7 @@ struct Settings {
   std::string rightTeam;  // likewise right
   bool quickSolver = false;
   int threads = 1;
+  int threadPatience = 0;  // us for which a thread looks out for work before it sleeps
 
   /// Switches mypos, myorien and ballpos on.
   void senseTruth();

@@ -6,6 +6,7 @@
 // in the server; ODE is double precision.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -37,7 +38,9 @@ struct WorldSettings {
   /// only chaos makes visible, after seconds of walking or in a pile of robots.
   enum class Solver : std::uint8_t { Exact, Quick };
   Solver solver = Solver::Exact;
-  int threads = 1;            // workers that step separate islands; the result does not depend on it
+  int threads = 1;  // workers that step separate islands; the result does not depend on it
+  /// How long a worker without work looks out for more before it sleeps.
+  std::chrono::microseconds threadPatience{0};
   double fieldLength = 30.0;  // m
   double fieldWidth = 20.0;
   double goalWidth = 2.1;
