@@ -9,7 +9,7 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kFallCost = 10.0;  // s
+constexpr double kFallCost = 20.0;  // s
 constexpr double kGivenUp = 300.0;  // s, for a course that was left after the last fall
 
 class StandardCourseTask final : public CourseTask {
@@ -27,7 +27,7 @@ class StandardCourseTask final : public CourseTask {
 
 const Task& standardCourseTask() {
   static const StandardCourseTask task(
-      "standardCourse", "the time for the course of goToTarget, walked with all sets; a fall costs 10 s",
+      "standardCourse", "the time for the course of goToTarget, walked with all sets; a fall costs 20 s",
       "motion.walk.", {.untilReached = true, .push = kLightPush});
   return task;
 }
