@@ -53,7 +53,7 @@ CourseTask::CourseTask(std::string_view name, std::string_view description, std:
 TaskResult CourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                                 const TaskSettings& settings) const {
   const CourseResult course = runCourse(trialSetup(parameters, seed, settings), seed, options_);
-  return {.fitness = fitness(course),
+  return {.fitness = course.reward,
           .measures = {{"falls", course.falls},
                        {"targets", course.targets},
                        {"reached", course.reached},

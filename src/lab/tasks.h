@@ -40,10 +40,6 @@ class CourseTask : public Task {
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override;
 
- protected:
-  virtual double fitness(const CourseResult& course) const { return course.reward; }
-  int mostFalls() const { return options_.mostFalls; }
-
  private:
   std::string_view name_;
   std::string_view description_;
