@@ -26,6 +26,8 @@ constexpr double kNoiseHold = 0.2;          // s between new noise
 constexpr double kHeadingGain = 4.0;        // 1/s, of held headings
 constexpr double kPushEvery = 2.0;          // s, on average
 constexpr double kChangeEvery = 1.0;        // s, on average
+constexpr double kNearFall = 0.3;           // rad
+constexpr double kSurelyFalling = 0.6;      // rad; what comes then tells nothing more
 constexpr double kLongestLeg = 30.0;        // s, of courses without time limits
 constexpr double kFastest = 3.0;            // m/s; the walk clamps it to what it can do
 constexpr double kFastestTurn = 2.0 * kPi;  // rad/s
@@ -205,6 +207,7 @@ class Walker {
       const Pose2 now = trial_->pose();
       drift += (now.translation - at.translation).norm();
       at = now;
+      result_.unsteadiness += kCycleTime * std::pow(std::min(trial_->tilt(), kSurelyFalling) / kNearFall, 4);
       if (trial_->down()) return fall(at, i + 1);
       reached = isReached(leg, at, left(leg, at, target, heading), heading);
       if (reached) used = i + 1;

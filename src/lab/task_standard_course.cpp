@@ -12,6 +12,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kFallCost = 20.0;  // s
+constexpr double kUnsteadinessCost = 1.0;
 constexpr int kMostFalls = 4;
 constexpr double kGivenUp = 300.0;  // s, for a course that was left after the last fall
 
@@ -41,11 +42,13 @@ class StandardCourseTask final : public Task {
     // The farther it came, the better.
     const double time = timed.falls < kMostFalls ? timed.time : kGivenUp - timed.distance;
     const int falls = timed.falls + limited.falls + changing.falls;
-    return {.fitness = -time - kFallCost * falls,
+    const double unsteadiness = timed.unsteadiness + limited.unsteadiness + changing.unsteadiness;
+    return {.fitness = -time - kFallCost * falls - kUnsteadinessCost * unsteadiness,
             .measures = {{"time_s", timed.time},
                          {"falls", timed.falls},
                          {"falls_limited", limited.falls},
                          {"falls_changing", changing.falls},
+                         {"unsteadiness_s", unsteadiness},
                          {"reward", limited.reward}}};
   }
 };

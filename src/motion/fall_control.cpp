@@ -57,8 +57,12 @@ bool FallControl::update(const world::WorldState& world, SkillPlayer& player, Jo
       protect(fallen, targets);
       return true;
     }
+    ++attempts_;
+    phase_ = Phase::Rising;
+    risingSince_ = world.time;
   }
   if (phase_ == Phase::Rising) {
+    if (liesOtherwise(world)) startRising(body.posture, player, world, targets);
     if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
     phase_ = Phase::Settling;
     settlingSince_ = world.time;
@@ -104,14 +108,21 @@ bool FallControl::startRising(Posture posture, SkillPlayer& player, const world:
   const RiseSkills& skills = posture == Posture::FallenFront  ? kFront
                              : posture == Posture::FallenBack ? kBack
                                                               : kSide;
-  std::string_view name = skills.names[static_cast<std::size_t>(attempts_ % kVariants)];
+  const int before = phase_ == Phase::Rising ? attempts_ - 1 : attempts_;
+  std::string_view name = skills.names[static_cast<std::size_t>(before % kVariants)];
   if (library_->find(name) < 0) name = skills.names[0];
   targets.angles = world.body.joints;
   targets.stiffness.fill(1.0);
   if (!player.start(name, posture == Posture::FallenRight, targets.angles)) return false;
-  ++attempts_;
-  phase_ = Phase::Rising;
+  risesFrom_ = posture;
   return true;
+}
+
+// All rising skills begin with straightening, which may as well be done while the robot still falls: only
+// then is it certain on which side it lies.
+bool FallControl::liesOtherwise(const world::WorldState& world) const {
+  return world::isFallen(world.body.posture) && world.body.posture != risesFrom_ &&
+         world.time - risingSince_ < parameters_.reconsiderTime;
 }
 
 }  // namespace nonet::motion

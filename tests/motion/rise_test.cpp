@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "nonet/lab/rise_report.h"
+#include "nonet/motion/fall_control.h"
 #include "nonet/motion/skill_library.h"
 #include "nonet/motion/skill_player.h"
 #include "nonet/motion/walk_engine.h"
@@ -61,6 +62,52 @@ TEST(RiseSkills, EveryVariantGetsUp) {
     for (int i = 0; i < 25; ++i) trial.stepJoints(targets);
     EXPECT_FALSE(trial.down()) << name;
     EXPECT_LT(trial.tilt(), 0.3) << name;
+  }
+}
+
+/// A robot that fell, as motion sees it.
+struct Fallen {
+  explicit Fallen(const TrialSetup& setup)
+      : model(model::robotModel(0)),
+        library(setup.skillFolder, setup.motion.skills),
+        stand(motion::WalkEngine::standAngles(model, setup.motion.sets.positioning)),
+        fall(model, library, setup.motion.fall, stand),
+        player(model, library, stand) {}
+
+  model::JointArray lie(world::Posture posture, double time) {
+    state.time = time;
+    state.body.posture = posture;
+    motion::JointTargets targets;
+    EXPECT_TRUE(fall.update(state, player, targets));
+    return targets.angles;
+  }
+
+  const model::RobotModel& model;
+  motion::SkillLibrary library;
+  model::JointArray stand;
+  motion::FallControl fall;
+  motion::SkillPlayer player;
+  world::WorldState state;
+};
+
+TEST(FallControl, BeginsAnewWhenTheRobotComesToLieOnAnotherSide) {
+  const TrialSetup setup = agentTrialSetup(0);
+  for (const double turnsAt : {0.1, 0.3, 1.0}) {
+    Fallen turned(setup);  // falls on its back and rolls to the right
+    Fallen onBack(setup);  // stays on its back
+    Fallen onSide(setup);  // begins when the first one has rolled
+    for (int cycle = 0; cycle < 90; ++cycle) {
+      const double time = 10.0 + cycle * kCycleTime;
+      const bool rolled = cycle * kCycleTime >= turnsAt - 1e-9;
+      const auto angles = turned.lie(rolled ? world::Posture::FallenRight : world::Posture::FallenBack, time);
+      const auto back = onBack.lie(world::Posture::FallenBack, time);
+      if (rolled && turnsAt < setup.motion.fall.reconsiderTime) {
+        EXPECT_EQ(angles, onSide.lie(world::Posture::FallenRight, time)) << turnsAt << " s, cycle " << cycle;
+      } else {
+        EXPECT_EQ(angles, back) << turnsAt << " s, cycle " << cycle;
+      }
+    }
+    EXPECT_EQ(turned.fall.attempts(), 1) << "it is still the first attempt";
   }
 }
 

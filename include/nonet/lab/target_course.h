@@ -47,6 +47,8 @@ struct CourseResult {
   double distance = 0.0;   // m made good
   double time = 0.0;       // s walked
   double stopDrift = 0.0;  // m moved in stops
+  /// Integral of (tilt / 0.3 rad)^4, s: near falls, which tell sooner than the rare falls how safe a walk is.
+  double unsteadiness = 0.0;
 };
 
 struct CourseOptions {

@@ -15,6 +15,7 @@ struct FallParameters {
   double softness = 0.3;
   double quietRate = 4.0;
   double longestWait = 0.6;
+  double reconsiderTime = 0.35;
   double settleTime = 0.8;
   double settledTilt = 0.12;
   double settledRate = 0.8;
@@ -31,6 +32,13 @@ struct FallParameters {
         self.quietRate);
     visit({"longestWait", Unit::Second, {0.0, 5.0}, fixed, "Then it rises even if it still moves"},
           self.longestWait);
+    visit({"reconsiderTime",
+           Unit::Second,
+           {0.0, 5.0},
+           fixed,
+           "A robot that began to rise while it still fell, and came to lie on another side, begins anew so "
+           "long"},
+          self.reconsiderTime);
     visit({"settleTime",
            Unit::Second,
            {0.0, 5.0},
@@ -70,12 +78,15 @@ class FallControl {
   void protect(bool down, JointTargets& targets) const;
   bool startRising(world::Posture posture, SkillPlayer& player, const world::WorldState& world,
                    JointTargets& targets);
+  bool liesOtherwise(const world::WorldState& world) const;
 
   const model::RobotModel* model_;
   const SkillLibrary* library_;
   FallParameters parameters_;
   model::JointArray stand_;
   Phase phase_ = Phase::None;
+  world::Posture risesFrom_ = world::Posture::Upright;
+  double risingSince_ = 0.0;    // server time, s
   int attempts_ = 0;            // since the robot last stood for a while
   double settlingSince_ = 0.0;  // server time, s
   double lyingSince_ = 0.0;     // server time, s
