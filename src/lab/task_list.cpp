@@ -46,8 +46,7 @@ void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set) {
 CourseTask::CourseTask(std::string_view name, std::string_view description, std::string_view key,
                        const CourseOptions& options)
     : name_(name), description_(description), key_(key), options_(options) {
-  // Who falls so often learns nothing from the rest, and falls take long to simulate.
-  options_.mostFalls = 4;
+  options_.mostFalls = kMostFalls;
 }
 
 TaskResult CourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kFallCost = 20.0;  // s
 constexpr double kUnsteadinessCost = 1.0;
-constexpr int kMostFalls = 4;
 constexpr double kGivenUp = 300.0;  // s, for a course that was left after the last fall
 
 class StandardCourseTask final : public Task {
@@ -21,8 +20,7 @@ class StandardCourseTask final : public Task {
   std::string_view name() const override { return "standardCourse"; }
   std::string_view description() const override {
     return "the time for the course of goToTarget, walked with all sets; a fall there, within its time "
-           "limits or "
-           "while sets change costs 20 s";
+           "limits or while sets change costs 20 s, near falls cost too";
   }
   std::vector<std::string> searchedKeys() const override { return {"motion.walk."}; }
 

@@ -25,6 +25,9 @@ TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t se
 /// Where the search for a walk set begins: at `walk`, unless the set was learned before.
 void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set);
 
+// Who falls so often on a course learns nothing from the rest, and falls take long to simulate.
+constexpr int kMostFalls = 4;
+
 constexpr double kLightPush = 0.15;  // m/s, as one's own missteps and the ball give them
 
 /// The obstacle course as a task: one way to walk it, and the set that is learned on it.

@@ -67,7 +67,7 @@ void compareSolvers(const char* odesName, SolveBlocks ours) {
   }
 }
 
-/// As the equations of joints that stand apart: whole blocks are zero. Ones on the diagonal's blocks.
+/// As the equations of joints that stand apart: whole blocks off the diagonal are zero.
 std::vector<double> withEmptyBlocks(unsigned n, double empty, Random& random) {
   const unsigned skip = rowLength(n);
   std::vector<double> result = numbers(std::size_t{n} * skip, 0.2, random);
