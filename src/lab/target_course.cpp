@@ -324,7 +324,14 @@ std::vector<CourseItem> makeCourse(std::uint64_t seed) {
 }
 
 CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options) {
-  return Walker(setup, seed, options).run(makeCourse(seed));
+  std::vector<CourseItem> course = makeCourse(seed);
+  if (options.items == CourseOptions::Items::HeldHeading) {
+    std::erase_if(course, [](const CourseItem& item) {
+      return std::any_of(item.legs.begin(), item.legs.end(),
+                         [](const CourseLeg& leg) { return leg.kind != Kind::Shift; });
+    });
+  }
+  return Walker(setup, seed, options).run(course);
 }
 
 CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads) {

@@ -1,6 +1,11 @@
 // The list of tasks and what they share.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "nonet/lab/robot_trial.h"
 #include "nonet/lab/target_course.h"
 #include "nonet/lab/task.h"
@@ -10,6 +15,7 @@ namespace nonet::lab {
 const Task& goToTargetTask();
 const Task& surefootedTask();
 const Task& standardCourseTask();
+const Task& heldHeadingTask();
 const Task& duelTask();
 const Task& sprintTask();
 const Task& getupTask();
@@ -48,6 +54,30 @@ class CourseTask : public Task {
   std::string_view description_;
   std::string_view key_;
   CourseOptions options_;
+};
+
+/// The time for the course with the sets that the agent itself would choose. The course is walked three
+/// times: by the clock, every target walked to until it is reached; with goToTarget's time limits, so that
+/// commands change before they are carried out; and with sets that change at random. Light pushes keep the
+/// learned set surefooted; a fall costs 20 s, near falls cost too.
+class TimedCourseTask final : public Task {
+ public:
+  /// `keys`: prefixes of the parameters to move. The texts must outlive the task.
+  TimedCourseTask(std::string_view name, std::string_view description, std::vector<std::string> keys,
+                  CourseOptions::Items items)
+      : name_(name), description_(description), keys_(std::move(keys)), items_(items) {}
+
+  std::string_view name() const override { return name_; }
+  std::string_view description() const override { return description_; }
+  std::vector<std::string> searchedKeys() const override { return keys_; }
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override;
+
+ private:
+  std::string_view name_;
+  std::string_view description_;
+  std::vector<std::string> keys_;
+  CourseOptions::Items items_;
 };
 
 }  // namespace nonet::lab

@@ -31,8 +31,8 @@ WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, c
       from_(sets_.of(set_)),
       active_(from_) {}
 
-void WalkControl::update(const world::WorldState& world, const MotionRequest& request,
-                         JointTargets& targets) {
+void WalkControl::update(const world::WorldState& world, const MotionRequest& wanted, JointTargets& targets) {
+  const MotionRequest request = calmed(world, wanted);
   const WalkSet set = chooseSet(world, request);
   if (set != set_) {
     set_ = set;
@@ -53,6 +53,17 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& re
   }
   if (request.kind == MotionRequest::Kind::WalkTo) speed = speedTowards(request);
   engine_.update(world.body, active_, speed, walk, targets);
+}
+
+MotionRequest WalkControl::calmed(const world::WorldState& world, const MotionRequest& wanted) {
+  MotionRequest request = wanted;
+  if (wanted.kind == MotionRequest::Kind::WalkTo) {
+    request.target =
+        filter_.update(wanted.target, world.body.odometryStep, world.body.cycleTime, active_.targetSmoothing);
+  } else {
+    filter_.reset();
+  }
+  return request;
 }
 
 WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionRequest& request) const {

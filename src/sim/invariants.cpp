@@ -45,8 +45,7 @@ void Invariants::checkRobot(const World& world, RobotHandle robot) {
     const double angle = toRadians(world.jointAngleDegrees(robot, joint.id));
     const double beyond = std::max(joint.low - angle, angle - joint.high);
     extremes_.overshoot = std::max(extremes_.overshoot, beyond);
-    const double allowed = limits_.overshootSteps * joint.maxSpeed * kCycleTime + limits_.overshootMargin;
-    if (beyond <= allowed) continue;  // false for a NaN too
+    if (beyond <= limits_.overshoot + limits_.overshootMargin) continue;  // false for a NaN too
     violate(fmt::format("{} of robot {} is at {:.2f} deg, {:.2f} deg beyond its stop",
                         model::perceptorName(joint.id), robot, toDegrees(angle), toDegrees(beyond)));
   }

@@ -131,6 +131,34 @@ TEST(StandardCourse, WhoIsGivenUpIsWorseThanTheSlowest) {
   EXPECT_LT(result.fitness, task.evaluate(initialParameters(), 7, quickSettings()).fitness - 50.0);
 }
 
+TEST(HeldHeading, WalksTheTargetsWithAHeldHeadingOnly) {
+  std::size_t shifts = 0;
+  for (const CourseItem& item : makeCourse(7)) {
+    for (const CourseLeg& leg : item.legs) shifts += leg.kind == CourseLeg::Kind::Shift ? 1U : 0U;
+  }
+  const CourseResult result = runCourse(setupOf(initialParameters(), 7), 7,
+                                        {.items = CourseOptions::Items::HeldHeading, .untilReached = true});
+  EXPECT_EQ(result.targets, static_cast<int>(shifts));
+  EXPECT_EQ(result.reached, result.targets);
+  EXPECT_EQ(result.stopDrift, 0.0) << "there is no stop among them";
+  const TaskResult held = findTask("heldHeading").evaluate(initialParameters(), 7, quickSettings());
+  const TaskResult whole = findTask("standardCourse").evaluate(initialParameters(), 7, quickSettings());
+  EXPECT_LT(measure(held, "time_s"), 0.4 * measure(whole, "time_s"));
+}
+
+TEST(Course, ANoisyTargetIsReachedSoonerWhenItIsAveraged) {
+  agent::AgentParameters averaging = initialParameters();
+  averaging.motion.sets.goToTarget.targetSmoothing = 0.6;
+  double without = 0.0;
+  double with = 0.0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const CourseOptions byTheClock{.untilReached = true};
+    without += runCourse(setupOf(initialParameters(), seed), seed, byTheClock).time;
+    with += runCourse(setupOf(averaging, seed), seed, byTheClock).time;
+  }
+  EXPECT_LT(with / 6.0, without / 6.0 - 1.0) << "s a course, of which one leg of 4.5 s has a noisy target";
+}
+
 TEST(GoToTarget, FitnessIsTheRewardOfTheCourse) {
   const agent::AgentParameters parameters = initialParameters();
   const TaskResult result = findTask("goToTarget").evaluate(parameters, 9, quickSettings());

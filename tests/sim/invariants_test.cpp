@@ -1,10 +1,15 @@
 // Each invariant is broken on purpose, one at a time, and must be reported as what it is.
 #include "nonet/sim/invariants.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "nonet/math/angle.h"
+#include "nonet/protocol/log_file.h"
+#include "nonet/protocol/percept_text.h"
 
 namespace nonet::sim {
 namespace {
@@ -61,6 +66,21 @@ TEST_F(BrokenWorld, JointFarBeyondItsStop) {
   const Invariants invariants = checked();
   EXPECT_THAT(invariants.messages(), ElementsAre(HasSubstr("hj2")));
   EXPECT_NEAR(invariants.extremes().overshoot, 1.2 - 0.7854, 1e-3);
+}
+
+TEST(Invariants, LetAJointOvershootAsFarAsTheRealServersDo) {
+  protocol::LogReader reader(NONET_TEST_DATA "/sim/overshoot_type3.log.gz");
+  double farthest = 0.0;
+  protocol::Percept percept;
+  for (protocol::LogLine line; reader.next(line);) {
+    if (line.kind != protocol::LogLine::Kind::Received) continue;
+    protocol::parsePercept(line.text, percept);
+    for (const model::JointSpec& joint : model::robotModel(3).joints()) {
+      const double angle = percept.joints[model::index(joint.id)];
+      farthest = std::max({farthest, joint.low - angle, angle - joint.high});
+    }
+  }
+  EXPECT_NEAR(toDegrees(farthest), toDegrees(InvariantLimits{}.overshoot), 0.01);
 }
 
 TEST_F(BrokenWorld, CommandThatIsNoNumberReachesNoJoint) {

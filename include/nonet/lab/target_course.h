@@ -52,6 +52,10 @@ struct CourseResult {
 };
 
 struct CourseOptions {
+  enum class Items : std::uint8_t {
+    All,
+    HeldHeading,  // only those of sidesteps and backward steps
+  } items = Items::All;
   motion::WalkSet set = motion::WalkSet::Automatic;
   int mostFalls = 100;  // then the rest of the course is not walked (and earns nothing)
   /// Every target is walked to until it is reached (30 s at most): what counts is CourseResult::time.

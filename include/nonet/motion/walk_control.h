@@ -3,9 +3,10 @@
 // Sets, after the AAMAS 2012 paper, section 4.2: `walk` (goToTarget) always; `sprint` when the target lies
 // within 15 degrees of the robot's direction; `positioning` near the ball (there within 0.8 m of it), and
 // here also near another robot, to stand and while stumbling: it is the set that was learned among pushes.
-// Changes are blended.
+// Changes are blended. A target that jumps about is averaged (target_filter.h).
 #pragma once
 
+#include "nonet/motion/target_filter.h"
 #include "nonet/motion/walk_engine.h"
 #include "nonet/motion/walk_parameters.h"
 #include "nonet/world/world_state.h"
@@ -78,16 +79,20 @@ class WalkControl {
   WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection);
 
   /// Kinds Stand, WalkVelocity and WalkTo; any other stands.
-  void update(const world::WorldState& world, const MotionRequest& request, JointTargets& targets);
+  void update(const world::WorldState& world, const MotionRequest& wanted, JointTargets& targets);
 
   /// Begins again from the stand (after a fall, a skill).
-  void reset() { engine_.reset(); }
+  void reset() {
+    engine_.reset();
+    filter_.reset();
+  }
   bool standing() const { return engine_.standing(); }
   const WalkEngine& engine() const { return engine_; }
   WalkSet set() const { return set_; }
 
  private:
   WalkSet chooseSet(const world::WorldState& world, const MotionRequest& request) const;
+  MotionRequest calmed(const world::WorldState& world, const MotionRequest& wanted);
   bool isCrowded(const world::WorldState& world) const;
   bool stumbles() const;
   Pose2 speedTowards(const MotionRequest& request) const;
@@ -95,6 +100,7 @@ class WalkControl {
   WalkSets sets_;
   WalkSelection selection_;
   WalkEngine engine_;
+  TargetFilter filter_;
   WalkSet set_ = WalkSet::GoToTarget;
   WalkParameters from_;  // active when the set changed
   WalkParameters active_;

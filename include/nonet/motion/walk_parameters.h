@@ -95,6 +95,7 @@ struct WalkParameters {
   double targetGain = 3.0;
   double targetTurnGain = 4.0;
   double targetTurnDistance = 0.5;
+  double targetSmoothing = 0.0;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -423,6 +424,12 @@ struct WalkParameters {
            fixed,
            "Nearer than this the robot takes the heading of the target, farther it faces the target"},
           self.targetTurnDistance);
+    visit({"targetSmoothing",
+           Unit::Second,
+           {0.0, 5.0},
+           search(0.0, 1.0),
+           "Time over which the place of a target that jumps about is averaged"},
+          self.targetSmoothing);
   }
 };
 
