@@ -10,10 +10,10 @@
 namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
-  static const std::array<const Task*, 12> tasks{&goToTargetTask(),  &surefootedTask(), &standardCourseTask(),
-                                                 &heldHeadingTask(), &duelTask(),       &sprintTask(),
-                                                 &getupTask(),       &getupFrontTask(), &getupBackTask(),
-                                                 &kickTask(),        &diveTask(),       &quadraticTask()};
+  static const std::array<const Task*, 12> tasks{&goToTargetTask(), &surefootedTask(), &standardCourseTask(),
+                                                 &sidestepTask(),   &duelTask(),       &sprintTask(),
+                                                 &getupTask(),      &getupFrontTask(), &getupBackTask(),
+                                                 &kickTask(),       &diveTask(),       &quadraticTask()};
   return tasks;
 }
 

@@ -46,7 +46,7 @@ const Task& standardCourseTask() {
       "standardCourse",
       "the time for the course of goToTarget, walked with all sets; a fall there, within its time "
       "limits or while sets change costs 20 s, near falls cost too",
-      {"motion.walk."}, CourseOptions::Items::All);
+      "motion.walk.", CourseOptions::Items::All);
   return task;
 }
 

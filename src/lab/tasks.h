@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "nonet/lab/robot_trial.h"
@@ -15,7 +14,7 @@ namespace nonet::lab {
 const Task& goToTargetTask();
 const Task& surefootedTask();
 const Task& standardCourseTask();
-const Task& heldHeadingTask();
+const Task& sidestepTask();
 const Task& duelTask();
 const Task& sprintTask();
 const Task& getupTask();
@@ -60,23 +59,23 @@ class CourseTask : public Task {
 /// times: by the clock, every target walked to until it is reached; with goToTarget's time limits, so that
 /// commands change before they are carried out; and with sets that change at random. Light pushes keep the
 /// learned set surefooted; a fall costs 20 s, near falls cost too.
-class TimedCourseTask final : public Task {
+class TimedCourseTask : public Task {
  public:
-  /// `keys`: prefixes of the parameters to move. The texts must outlive the task.
-  TimedCourseTask(std::string_view name, std::string_view description, std::vector<std::string> keys,
+  /// `key`: the prefix of the parameters to move. The texts must outlive the task.
+  TimedCourseTask(std::string_view name, std::string_view description, std::string_view key,
                   CourseOptions::Items items)
-      : name_(name), description_(description), keys_(std::move(keys)), items_(items) {}
+      : name_(name), description_(description), key_(key), items_(items) {}
 
   std::string_view name() const override { return name_; }
   std::string_view description() const override { return description_; }
-  std::vector<std::string> searchedKeys() const override { return keys_; }
+  std::vector<std::string> searchedKeys() const override { return {std::string(key_)}; }
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override;
 
  private:
   std::string_view name_;
   std::string_view description_;
-  std::vector<std::string> keys_;
+  std::string_view key_;
   CourseOptions::Items items_;
 };
 

@@ -7,6 +7,8 @@ namespace nonet::motion {
 
 namespace {
 
+constexpr double kLeastSidestep = 0.02;  // m; shorter steps need no set of their own
+
 constexpr double kKeepSet = 1.3;  // the positioning set is kept up to this multiple of its distances
 
 constexpr double kCalm =
@@ -46,13 +48,17 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& wa
   }
   const bool walk =
       request.kind == MotionRequest::Kind::WalkVelocity || request.kind == MotionRequest::Kind::WalkTo;
+  engine_.update(world.body, active_, speedFor(request), walk, targets);
+}
+
+Pose2 WalkControl::speedFor(const MotionRequest& request) const {
   Pose2 speed;
   if (request.kind == MotionRequest::Kind::WalkVelocity) {
     speed = request.velocity;
     speed.translation = Pose2(Vector2::Zero(), engine_.trace().torsoYaw).rotate(speed.translation);
   }
   if (request.kind == MotionRequest::Kind::WalkTo) speed = speedTowards(request);
-  engine_.update(world.body, active_, speed, walk, targets);
+  return speed;
 }
 
 MotionRequest WalkControl::calmed(const world::WorldState& world, const MotionRequest& wanted) {
@@ -78,7 +84,19 @@ WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionReque
       return WalkSet::Sprint;
     }
   }
-  return WalkSet::GoToTarget;
+  return selection_.useSidestep && sidesteps(request) ? WalkSet::Sidestep : WalkSet::GoToTarget;
+}
+
+bool WalkControl::sidesteps(const MotionRequest& request) const {
+  const bool already = set_ == WalkSet::Sidestep;
+  const Pose2 speed = speedFor(request);
+  const double stepTime = engine_.stepTime(active_);
+  const double forward = speed.translation.x();
+  const double aside = speed.translation.y();
+  if (speed.translation.norm() * stepTime < kLeastSidestep) return false;
+  const double turn = std::abs(speed.rotation) * stepTime / std::max(active_.maxStepTheta, 1e-6);
+  return std::abs(std::atan2(aside, forward)) > (already ? 0.75 : 1.0) * selection_.sidestepAngle &&
+         turn < (already ? 2.0 : 1.0) * selection_.sidestepTurn;
 }
 
 bool WalkControl::stumbles() const {

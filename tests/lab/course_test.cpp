@@ -131,7 +131,7 @@ TEST(StandardCourse, WhoIsGivenUpIsWorseThanTheSlowest) {
   EXPECT_LT(result.fitness, task.evaluate(initialParameters(), 7, quickSettings()).fitness - 50.0);
 }
 
-TEST(HeldHeading, WalksTheTargetsWithAHeldHeadingOnly) {
+TEST(Sidestep, WalksTheTargetsWithAHeldHeadingOnly) {
   std::size_t shifts = 0;
   for (const CourseItem& item : makeCourse(7)) {
     for (const CourseLeg& leg : item.legs) shifts += leg.kind == CourseLeg::Kind::Shift ? 1U : 0U;
@@ -141,7 +141,7 @@ TEST(HeldHeading, WalksTheTargetsWithAHeldHeadingOnly) {
   EXPECT_EQ(result.targets, static_cast<int>(shifts));
   EXPECT_EQ(result.reached, result.targets);
   EXPECT_EQ(result.stopDrift, 0.0) << "there is no stop among them";
-  const TaskResult held = findTask("heldHeading").evaluate(initialParameters(), 7, quickSettings());
+  const TaskResult held = findTask("sidestep").evaluate(initialParameters(), 7, quickSettings());
   const TaskResult whole = findTask("standardCourse").evaluate(initialParameters(), 7, quickSettings());
   EXPECT_LT(measure(held, "time_s"), 0.4 * measure(whole, "time_s"));
 }

@@ -1,5 +1,7 @@
 #include "nonet/motion/walk_control.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "nonet/model/robot_model.h"
@@ -112,6 +114,55 @@ TEST_F(WalkControlTest, SprintsStraightAheadOnly) {
   EXPECT_EQ(setOf(Pose2(0.9, 0.0, 0.0)), WalkSet::GoToTarget);
   placeOpponent(0.8);
   EXPECT_EQ(setOf(Pose2(3.0, 0.0, 0.0)), WalkSet::Positioning) << "others come first";
+}
+
+class Sidestepper : public WalkControlTest {
+ protected:
+  static WalkSelection sidestepping() {
+    WalkSelection chosen = selection();
+    chosen.useSidestep = true;
+    return chosen;
+  }
+  WalkSet setFor(const Pose2& velocity) {
+    MotionRequest request;
+    request.kind = MotionRequest::Kind::WalkVelocity;
+    request.velocity = velocity;
+    sidestepper.update(world, request, targets);
+    return sidestepper.set();
+  }
+
+  WalkControl sidestepper{model::robotModel(0), WalkSets{}, sidestepping()};
+};
+
+TEST_F(Sidestepper, WalksSidewaysAndBackwardWithTheSidestepSet) {
+  EXPECT_EQ(setFor(Pose2(1.0, 0.0, 0.0)), WalkSet::GoToTarget);
+  EXPECT_EQ(setFor(Pose2(0.0, 1.0, 0.0)), WalkSet::Sidestep);
+  EXPECT_EQ(setFor(Pose2(1.0, 0.0, 0.0)), WalkSet::GoToTarget);
+  EXPECT_EQ(setFor(Pose2(-1.0, -0.1, 0.0)), WalkSet::Sidestep);
+  EXPECT_EQ(setFor(Pose2(0.0, 0.1, 0.0)), WalkSet::GoToTarget) << "so slow that every set can do it";
+}
+
+TEST_F(Sidestepper, KeepsTheSetForAWhile) {
+  const double angle = WalkSelection{}.sidestepAngle;
+  const auto aside = [](double direction) { return Pose2(std::cos(direction), std::sin(direction), 0.0); };
+  EXPECT_EQ(setFor(aside(0.9 * angle)), WalkSet::GoToTarget);
+  EXPECT_EQ(setFor(aside(1.1 * angle)), WalkSet::Sidestep);
+  EXPECT_EQ(setFor(aside(0.9 * angle)), WalkSet::Sidestep) << "not to and fro at the border";
+  EXPECT_EQ(setFor(aside(0.7 * angle)), WalkSet::GoToTarget);
+}
+
+TEST_F(Sidestepper, TurnsWithTheGoToTargetSet) {
+  EXPECT_EQ(setFor(Pose2(0.0, 1.0, 2.0)), WalkSet::GoToTarget);
+  EXPECT_EQ(setFor(Pose2(0.0, 1.0, 0.1)), WalkSet::Sidestep);
+  EXPECT_EQ(setFor(Pose2(0.0, 0.0, 0.1)), WalkSet::GoToTarget);
+  // To a target behind, too, which the robot turns to.
+  walk.target = Pose2(-3.0, 0.5, 3.0);
+  sidestepper.update(world, walk, targets);
+  EXPECT_EQ(sidestepper.set(), WalkSet::GoToTarget);
+  // But not to one at the side that is to be reached as the robot stands.
+  walk.target = Pose2(0.0, 0.24, 0.0);
+  sidestepper.update(world, walk, targets);
+  EXPECT_EQ(sidestepper.set(), WalkSet::Sidestep);
 }
 
 }  // namespace

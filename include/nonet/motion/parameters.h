@@ -56,6 +56,7 @@ struct MotionParameters {
     visit.group("selection", self.selection);
     visit.group("walk", self.sets.goToTarget);
     visit.group("sprint", self.sets.sprint);
+    visit.group("sidestep", self.sets.sidestep);
     visit.group("positioning", self.sets.positioning);
     visit.group("head", self.head);
     visit.group("fall", self.fall);

@@ -10,7 +10,7 @@
 namespace nonet::motion {
 
 /// Which parameter set the walk uses; Automatic: by target and ball (walk_control.h).
-enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Positioning };
+enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Sidestep, Positioning };
 
 /// Rising from a fall needs no request: motion does it by itself unless the request is Skill or Dive.
 struct MotionRequest {

@@ -1,7 +1,8 @@
 // Walk control: a request (stand, velocity, target) -> speed and parameter set for the walk engine.
 //
 // Sets, after the AAMAS 2012 paper, section 4.2: `walk` (goToTarget) always; `sprint` when the target lies
-// within 15 degrees of the robot's direction; `positioning` near the ball (there within 0.8 m of it), and
+// within 15 degrees of the robot's direction; `sidestep` to walk sideways and backward without turning,
+// which the paper does not have; `positioning` near the ball (there within 0.8 m of it), and
 // here also near another robot, to stand and while stumbling: it is the set that was learned among pushes.
 // Changes are blended. A target that jumps about is averaged (target_filter.h).
 #pragma once
@@ -16,12 +17,15 @@ namespace nonet::motion {
 struct WalkSets {
   WalkParameters goToTarget;
   WalkParameters sprint;
+  WalkParameters sidestep;
   WalkParameters positioning;
 
   const WalkParameters& of(WalkSet set) const {
     switch (set) {
       case WalkSet::Sprint:
         return sprint;
+      case WalkSet::Sidestep:
+        return sidestep;
       case WalkSet::Positioning:
         return positioning;
       default:
@@ -32,9 +36,12 @@ struct WalkSets {
 
 struct WalkSelection {
   bool useSprint = false;
+  bool useSidestep = false;
   bool usePositioning = false;
   double sprintAngle = 0.2618;
   double sprintDistance = 0.5;
+  double sidestepAngle = 1.0;
+  double sidestepTurn = 0.3;
   double positioningDistance = 1.2;
   double crowdDistance = 1.4;
   double positioningTilt = 0.25;
@@ -47,6 +54,8 @@ struct WalkSelection {
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
     visit({"useSprint", Unit::None, {0, 1}, fixed, "Whether the sprint set is used at all"}, self.useSprint);
+    visit({"useSidestep", Unit::None, {0, 1}, fixed, "Whether the sidestep set is used at all"},
+          self.useSidestep);
     visit({"usePositioning", Unit::None, {0, 1}, fixed, "Whether the positioning set is used at all"},
           self.usePositioning);
     visit(
@@ -54,6 +63,18 @@ struct WalkSelection {
         self.sprintAngle);
     visit({"sprintDistance", Unit::Metre, {0.0, 30.0}, fixed, "Sprint: least distance of the target"},
           self.sprintDistance);
+    visit({"sidestepAngle",
+           Unit::Radian,
+           {0.0, 3.2},
+           fixed,
+           "Sidestep: least angle between heading and motion; kept down to three quarters of it"},
+          self.sidestepAngle);
+    visit({"sidestepTurn",
+           Unit::None,
+           {0.0, 1.0},
+           fixed,
+           "Sidestep: largest turn as a share of the fastest; kept up to twice of it"},
+          self.sidestepTurn);
     visit(
         {"positioningDistance", Unit::Metre, {0.0, 30.0}, fixed, "Positioning: largest distance of the ball"},
         self.positioningDistance);
@@ -92,9 +113,11 @@ class WalkControl {
 
  private:
   WalkSet chooseSet(const world::WorldState& world, const MotionRequest& request) const;
+  bool sidesteps(const MotionRequest& request) const;
   MotionRequest calmed(const world::WorldState& world, const MotionRequest& wanted);
   bool isCrowded(const world::WorldState& world) const;
   bool stumbles() const;
+  Pose2 speedFor(const MotionRequest& request) const;
   Pose2 speedTowards(const MotionRequest& request) const;
 
   WalkSets sets_;
