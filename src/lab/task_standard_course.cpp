@@ -18,12 +18,10 @@ TaskResult TimedCourseTask::evaluate(const agent::AgentParameters& parameters, s
                                      const TaskSettings& settings) const {
   const TrialSetup setup = trialSetup(parameters, seed, settings);
   const auto walk = [&](bool untilReached, bool changeSets) {
-    return runCourse(setup, seed,
-                     {.items = items_,
-                      .mostFalls = kMostFalls,
-                      .untilReached = untilReached,
-                      .push = kLightPush,
-                      .changeSets = changeSets});
+    CourseOptions way = options();
+    way.untilReached = untilReached;
+    way.changeSets = changeSets;
+    return runCourse(setup, seed, way);
   };
   const CourseResult timed = walk(true, false);
   const CourseResult limited = walk(false, false);

@@ -48,6 +48,9 @@ class CourseTask : public Task {
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override;
 
+ protected:
+  const CourseOptions& options() const { return options_; }
+
  private:
   std::string_view name_;
   std::string_view description_;
@@ -59,24 +62,14 @@ class CourseTask : public Task {
 /// times: by the clock, every target walked to until it is reached; with goToTarget's time limits, so that
 /// commands change before they are carried out; and with sets that change at random. Light pushes keep the
 /// learned set surefooted; a fall costs 20 s, near falls cost too.
-class TimedCourseTask : public Task {
+class TimedCourseTask : public CourseTask {
  public:
-  /// `key`: the prefix of the parameters to move. The texts must outlive the task.
   TimedCourseTask(std::string_view name, std::string_view description, std::string_view key,
                   CourseOptions::Items items)
-      : name_(name), description_(description), key_(key), items_(items) {}
+      : CourseTask(name, description, key, {.items = items, .push = kLightPush}) {}
 
-  std::string_view name() const override { return name_; }
-  std::string_view description() const override { return description_; }
-  std::vector<std::string> searchedKeys() const override { return {std::string(key_)}; }
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override;
-
- private:
-  std::string_view name_;
-  std::string_view description_;
-  std::string_view key_;
-  CourseOptions::Items items_;
 };
 
 }  // namespace nonet::lab
