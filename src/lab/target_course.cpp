@@ -18,6 +18,8 @@ using Kind = CourseLeg::Kind;
 using motion::MotionRequest;
 
 constexpr double kFarthest = 100.0;         // m, nobody walks there
+constexpr double kOpenGround = 300.0;       // m, length and width of a field so large that nobody leaves it
+constexpr float kBallHeight = 0.042F;       // m, of its centre on the ground
 constexpr double kReached = 0.15;           // m
 constexpr double kTurned = 0.1745;          // rad
 constexpr double kPlaced = 0.35;            // rad
@@ -157,11 +159,19 @@ CourseItem places(Random& random, double side) {
   return item;
 }
 
+// The course wanders off by more than half a field. Walking into a goal or a ball is another matter than
+// walking: the goals stand out of reach and so does the ball.
+TrialSetup onOpenGround(TrialSetup setup) {
+  setup.physics.fieldLength = kOpenGround;
+  setup.physics.fieldWidth = kOpenGround;
+  return setup;
+}
+
 // One robot on the course. After a fall a fresh one stands where the old one fell.
 class Walker {
  public:
   Walker(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options)
-      : setup_(setup), options_(options), random_(Random(seed).fork(2)) {
+      : setup_(onOpenGround(setup)), options_(options), random_(Random(seed).fork(2)) {
     // As in a game: no two starts are alike.
     stand({random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0), random_.uniform(-kPi, kPi)});
   }
@@ -180,6 +190,7 @@ class Walker {
  private:
   void stand(const Pose2& X_FR) {
     trial_ = std::make_unique<RobotTrial>(setup_);
+    trial_->physics().setBallPosition({0.0F, -static_cast<float>(kFarthest), kBallHeight});
     trial_->settle(X_FR);
   }
 
@@ -301,7 +312,7 @@ class Walker {
     result_.falls = options_.mostFalls;
   }
 
-  const TrialSetup& setup_;
+  TrialSetup setup_;
   CourseOptions options_;
   Random random_;
   std::unique_ptr<RobotTrial> trial_;

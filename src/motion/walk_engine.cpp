@@ -36,6 +36,11 @@ double approach(double value, double goal, double share, double maxChange) {
   return value + std::clamp(share * (goal - value), -maxChange, maxChange);
 }
 
+// What a tilt is beyond the limit.
+double beyond(double tilt, double limit) {
+  return tilt - std::clamp(tilt, -limit, limit);
+}
+
 Matrix3 tiltRotation(double pitch, double roll) {
   return (Eigen::AngleAxisd(pitch, Vector3::UnitY()) * Eigen::AngleAxisd(roll, Vector3::UnitX()))
       .toRotationMatrix();
@@ -136,6 +141,8 @@ void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
   const double range = std::max(p.errMax - p.errNorm, 1e-6);
   const Vector2 before = step_.translation;
   step_ = scaled(wanted_, std::clamp((p.errMax - trace_.comError) / range, 0.0, 1.0));
+  // Who stumbles speeds up anew afterwards, instead of leaping back to the full step.
+  if (std::max(std::abs(trace_.pitchError), std::abs(trace_.rollError)) > p.recoverTilt) wanted_ = step_;
   updateAcceleration(step_.translation - before, cycles);
 }
 
@@ -219,6 +226,8 @@ void WalkEngine::moveSwingFoot(const Tilt& tilt) {
       Pose2(0.5 * step_.translation.x(), side + 0.5 * step_.translation.y(), 0.5 * step_.rotation + outwards);
   landing.translation.x() += p.stepPitchGain * tilt.pitch + p.stepPitchRateGain * tilt.pitchRate;
   landing.translation.y() -= p.stepRollGain * tilt.roll + p.stepRollRateGain * tilt.rollRate;
+  landing.translation.x() += p.recoverStepPitch * beyond(tilt.pitch, p.recoverTilt);
+  landing.translation.y() -= p.recoverStepRoll * beyond(tilt.roll, p.recoverTilt);
   const double moved = progress(phase_, p.fS, p.fM, p.swingStraightness);
   Pose2& foot = feet_[index(swing)];
   foot.translation = (1.0 - moved) * swingStart_.translation + moved * landing.translation;
@@ -259,8 +268,10 @@ void WalkEngine::footPoses(const Tilt& tilt, FootPoses& feet) const {
   const double middle = std::sin(kPi * std::clamp(phase_, 0.0, 1.0));
   const double height = p.zTorso * model_->standingHeight();
   const Lean desired = lean();
-  const double pitch = desired.pitch - p.hipPitchGain * tilt.pitch - p.hipPitchRateGain * tilt.pitchRate;
-  const double roll = desired.roll - p.hipRollGain * tilt.roll - p.hipRollRateGain * tilt.rollRate;
+  const double pitch = desired.pitch - p.hipPitchGain * tilt.pitch - p.hipPitchRateGain * tilt.pitchRate +
+                       p.recoverLevelPitch * beyond(tilt.pitch, p.recoverTilt);
+  const double roll = desired.roll - p.hipRollGain * tilt.roll - p.hipRollRateGain * tilt.rollRate +
+                      p.recoverLevelRoll * beyond(tilt.roll, p.recoverTilt);
   const double xFactor = step_.translation.x() >= 0.0 ? p.xFactor : p.xFactorBack;
   const Vector2 shift = p.pendulumHeight / kGravity * acceleration_;
   const Matrix3 R_RL = tiltRotation(pitch, roll).transpose();

@@ -76,6 +76,18 @@ TEST(Course, TheSameSeedGivesTheSameWalk) {
   EXPECT_NE(first.reward, runCourse(setup, 4, {}).reward);
 }
 
+// It wanders off by more than half a field: goals, walls and the ball must be nowhere near, or it measures
+// collisions.
+TEST(Course, HasNothingToBumpInto) {
+  TrialSetup small = setupOf(initialParameters(), 3);
+  small.physics.fieldLength = 6.0;
+  small.physics.fieldWidth = 4.0;
+  const CourseResult inside = runCourse(small, 3, {});
+  const CourseResult outside = runCourse(setupOf(initialParameters(), 3), 3, {});
+  EXPECT_EQ(inside.reward, outside.reward);
+  EXPECT_EQ(inside.unsteadiness, outside.unsteadiness);
+}
+
 TEST(Course, ByTheClockEveryTargetIsReached) {
   const CourseResult result = runCourse(setupOf(initialParameters(), 5), 5, {.untilReached = true});
   EXPECT_EQ(result.falls, 0);

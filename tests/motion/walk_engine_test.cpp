@@ -1,5 +1,6 @@
 #include "nonet/motion/walk_engine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -373,6 +374,80 @@ TEST(WalkEngine, TorsoShiftsIntoTheCurve) {
 
 // Outside what a physical reading would allow nothing breaks: finite angles within the limits for random sets
 // from the whole declared ranges.
+// Level feet below a leaning torso: the commanded soles are turned by the tilt against the torso, as far as
+// it is beyond the limit, and below the limit nothing changes at all.
+TEST(WalkEngine, LevelsTheFeetBelowATorsoThatTiltsFar) {
+  for (const double tilt : {-0.5, -0.3, -0.1, 0.1, 0.3, 0.5}) {
+    for (const bool roll : {false, true}) {
+      WalkParameters plain;
+      plain.swingLevelGain = 0.0;
+      plain.stepPitchGain = plain.stepRollGain = 0.0;
+      WalkParameters levelling = plain;
+      levelling.recoverTilt = 0.2;
+      levelling.recoverLevelPitch = levelling.recoverLevelRoll = 1.0;
+      Walker without(0, plain);
+      Walker with(0, levelling);
+      for (Walker* walker : {&without, &with}) {
+        (roll ? walker->body.roll : walker->body.pitch) = tilt;
+        walker->run(Pose2{}, 7);
+      }
+      const double beyond = tilt - std::clamp(tilt, -0.2, 0.2);
+      const Vector3 axis = roll ? Vector3::UnitX() : Vector3::UnitY();
+      for (const Side side : {Side::Left, Side::Right}) {
+        const std::size_t foot = index(side);
+        const Pose3& before = without.engine.trace().feet[foot];
+        const Pose3 expected = Eigen::AngleAxisd(-beyond, axis) * before;
+        const Pose3& after = with.engine.trace().feet[foot];
+        EXPECT_TRUE(after.isApprox(expected, 1e-9)) << "tilt " << tilt << (roll ? " roll" : " pitch");
+      }
+    }
+  }
+}
+
+TEST(WalkEngine, StepsToWhereItFalls) {
+  for (const double tilt : {-0.5, -0.25, 0.1, 0.4}) {
+    WalkParameters plain;
+    WalkParameters catching;
+    catching.recoverTilt = 0.2;
+    catching.recoverStepPitch = 0.3;
+    catching.recoverStepRoll = 0.2;
+    Walker without(0, plain);
+    Walker with(0, catching);
+    const int cycles = static_cast<int>(std::lround(WalkEngine::stepTime(plain) / kCycleTime));
+    for (Walker* walker : {&without, &with}) {
+      walker->body.pitch = tilt;
+      walker->body.roll = -tilt;  // to the left
+      walker->run(Pose2{}, cycles);
+    }
+    const double beyond = tilt - std::clamp(tilt, -0.2, 0.2);
+    const std::size_t swing = index(model::other(with.engine.trace().stance));
+    const Vector3 moved = with.engine.trace().feet[swing].translation() -
+                          without.engine.trace().feet[swing].translation();
+    EXPECT_NEAR(moved.x(), 0.3 * beyond, 1e-9) << tilt;
+    EXPECT_NEAR(moved.y(), 0.2 * beyond, 1e-9) << tilt;
+  }
+}
+
+// While it stumbles the error of the centre of mass makes its steps small. Upright again it speeds up as from
+// a stand.
+TEST(WalkEngine, DoesNotLeapBackToFullSpeedAfterAStumble) {
+  Walker walker(0);
+  walker.run(Pose2(1.0, 0.0, 0.0), 100);
+  const double full = walker.engine.trace().step.translation.x();
+  walker.body.pitch = 0.3;
+  walker.run(Pose2(1.0, 0.0, 0.0), 20);
+  double before = walker.engine.trace().step.translation.x();
+  EXPECT_LT(before, 0.5 * full);
+  walker.body.pitch = 0.0;
+  walker.step(Pose2(1.0, 0.0, 0.0));  // the error of the cycle before still counts
+  for (int i = 0; i < 60; ++i) {
+    before = walker.engine.trace().step.translation.x();
+    walker.step(Pose2(1.0, 0.0, 0.0));
+    EXPECT_LT(walker.engine.trace().step.translation.x() - before, walker.parameters.maxChangeX + 1e-9) << i;
+  }
+  EXPECT_NEAR(walker.engine.trace().step.translation.x(), full, 1e-3);
+}
+
 TEST(WalkEngine, SurvivesEverySetWithinTheRanges) {
   Random random(17);
   for (int k = 0; k < 300; ++k) {

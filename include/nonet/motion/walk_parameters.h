@@ -85,6 +85,12 @@ struct WalkParameters {
   double stepPitchRateGain = 0.01;
   double stepRollGain = 0.05;
   double stepRollRateGain = 0.01;
+  // Recovering from a large tilt
+  double recoverTilt = 0.2;
+  double recoverLevelPitch = 0.0;
+  double recoverLevelRoll = 0.0;
+  double recoverStepPitch = 0.0;
+  double recoverStepRoll = 0.0;
   // Arms
   double armPitch = -1.57;
   double armYaw = 0.15;
@@ -103,6 +109,7 @@ struct WalkParameters {
     describeTorso(self, visit);
     describeFeet(self, visit);
     describeFeedback(self, visit);
+    describeRecovery(self, visit);
     describeRest(self, visit);
   }
 
@@ -394,6 +401,35 @@ struct WalkParameters {
           self.stepRollGain);
     visit({"stepRollRateGain", Unit::Metre, {-1.0, 1.0}, search(-0.01, 0.05), "Per roll rate, m s/rad"},
           self.stepRollRateGain);
+  }
+
+  // A body that tilts with level feet commanded stands on their edges, and on the low side the swing foot
+  // never clears the ground: small gains that suit a walk keep a robot stepping at that tilt until it falls.
+  template <class Self, class Visitor>
+  static void describeRecovery(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"recoverTilt",
+           Unit::Radian,
+           {0.0, 3.2},
+           search(0.1, 0.35),
+           "Tilt error beyond which the gains for recovering act, on what is beyond"},
+          self.recoverTilt);
+    visit({"recoverLevelPitch",
+           Unit::None,
+           {-3.0, 3.0},
+           search(0.0, 1.0),
+           "Legs turned against the torso, to stay upright under it: 1 = wholly"},
+          self.recoverLevelPitch);
+    visit({"recoverLevelRoll", Unit::None, {-3.0, 3.0}, search(0.0, 1.0), "The same sideways"},
+          self.recoverLevelRoll);
+    visit({"recoverStepPitch",
+           Unit::Metre,
+           {-2.0, 2.0},
+           search(0.0, 0.3),
+           "Swing foot ahead per radian of pitch beyond"},
+          self.recoverStepPitch);
+    visit({"recoverStepRoll", Unit::Metre, {-2.0, 2.0}, search(0.0, 0.3), "Swing foot aside, the same"},
+          self.recoverStepRoll);
   }
 
   template <class Self, class Visitor>
