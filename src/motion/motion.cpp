@@ -9,6 +9,7 @@ namespace nonet::motion {
 namespace {
 
 constexpr double kKickRate = 0.35;  // rad/s, of the torso before a kick
+constexpr double kKickQuiet = 0.04;  // s, so long: a robot that rocks on its feet is quiet only for a moment
 
 // Takes out the jump when another source of targets takes over: the difference to what was commanded last
 // fades away.
@@ -50,7 +51,7 @@ struct Motion::Stages {
   enum class Mode : std::uint8_t { Walk, Skill, Fall };
 
   bool updateSkill(const world::WorldState& world, const MotionRequest& request);
-  bool startSkill(const world::WorldState& world, const MotionRequest& request);
+  bool startSkill(const MotionRequest& request);
   void updateWalk(const world::WorldState& world, const MotionRequest& request);
 
   MotionParameters parameters;
@@ -68,6 +69,7 @@ struct Motion::Stages {
   bool skillDone = false;  // the request that is still made was carried out
   bool started = false;
   bool putDown = false;  // its steps are over
+  double quiet = 0.0;    // s, for which the robot has stood still
 };
 
 // A skill or kick that has begun is played to its end. Kicks begin from a quiet stand.
@@ -86,7 +88,7 @@ bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionReq
     }
     skillDone = false;
     pending = request;
-    if (!startSkill(world, request)) return false;
+    if (!startSkill(request)) return false;
   }
   state.busy = true;
   if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
@@ -96,9 +98,9 @@ bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionReq
   return true;
 }
 
-bool Motion::Stages::startSkill(const world::WorldState& world, const MotionRequest& request) {
+bool Motion::Stages::startSkill(const MotionRequest& request) {
   const bool kick = request.kind == MotionRequest::Kind::Kick;
-  if (kick && !(walk.standing() && world.body.gyro.norm() < kKickRate)) return false;
+  if (kick && quiet < kKickQuiet) return false;
   const bool mirrored = request.side == model::Side::Right;
   const std::string_view name = kick ? std::string_view("kick_forward") : request.skill.view();
   std::optional<Vector2> ball;
@@ -148,6 +150,9 @@ const JointTargets& Motion::update(const world::WorldState& world, const MotionR
   Stages& s = *stages_;
   s.state = MotionState{};
   const bool skillRuns = s.mode == Stages::Mode::Skill;
+  const bool still = s.walk.standing() && world.body.gyro.norm() < kKickRate &&
+                     world.body.footContact[0] && world.body.footContact[1];
+  s.quiet = still ? s.quiet + world.body.cycleTime : 0.0;
   if (!skillRuns && s.started && s.fall.update(world, s.player, s.targets)) {
     s.mode = Stages::Mode::Fall;
     s.head.release();

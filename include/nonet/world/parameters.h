@@ -7,8 +7,8 @@ namespace nonet::world {
 
 struct WorldParameters {
   double fallenAngle = 0.9;
-  double fallingAngle = 0.8;
-  double uprightAngle = 0.6;
+  double fallingAngle = 0.7;
+  double uprightAngle = 0.45;
   double fallPreview = 0.1;
   // For measurements of what each part is worth.
   bool useParticleFilter = true;
