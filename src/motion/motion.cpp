@@ -8,7 +8,7 @@ namespace nonet::motion {
 
 namespace {
 
-constexpr double kKickRate = 0.35;  // rad/s, of the torso before a kick
+constexpr double kKickRate = 0.35;   // rad/s, of the torso before a kick
 constexpr double kKickQuiet = 0.04;  // s, so long: a robot that rocks on its feet is quiet only for a moment
 
 // Takes out the jump when another source of targets takes over: the difference to what was commanded last
@@ -150,8 +150,8 @@ const JointTargets& Motion::update(const world::WorldState& world, const MotionR
   Stages& s = *stages_;
   s.state = MotionState{};
   const bool skillRuns = s.mode == Stages::Mode::Skill;
-  const bool still = s.walk.standing() && world.body.gyro.norm() < kKickRate &&
-                     world.body.footContact[0] && world.body.footContact[1];
+  const bool still = s.walk.standing() && world.body.gyro.norm() < kKickRate && world.body.footContact[0] &&
+                     world.body.footContact[1];
   s.quiet = still ? s.quiet + world.body.cycleTime : 0.0;
   if (!skillRuns && s.started && s.fall.update(world, s.player, s.targets)) {
     s.mode = Stages::Mode::Fall;

@@ -421,8 +421,8 @@ TEST(WalkEngine, StepsToWhereItFalls) {
     }
     const double beyond = tilt - std::clamp(tilt, -0.2, 0.2);
     const std::size_t swing = index(model::other(with.engine.trace().stance));
-    const Vector3 moved = with.engine.trace().feet[swing].translation() -
-                          without.engine.trace().feet[swing].translation();
+    const Vector3 moved =
+        with.engine.trace().feet[swing].translation() - without.engine.trace().feet[swing].translation();
     EXPECT_NEAR(moved.x(), 0.3 * beyond, 1e-9) << tilt;
     EXPECT_NEAR(moved.y(), 0.2 * beyond, 1e-9) << tilt;
   }
