@@ -19,7 +19,6 @@ using motion::MotionRequest;
 
 constexpr double kFarthest = 100.0;         // m, nobody walks there
 constexpr double kOpenGround = 300.0;       // m, length and width of a field so large that nobody leaves it
-constexpr float kBallHeight = 0.042F;       // m, of its centre on the ground
 constexpr double kReached = 0.15;           // m
 constexpr double kTurned = 0.1745;          // rad
 constexpr double kPlaced = 0.35;            // rad
@@ -190,7 +189,7 @@ class Walker {
  private:
   void stand(const Pose2& X_FR) {
     trial_ = std::make_unique<RobotTrial>(setup_);
-    trial_->physics().setBallPosition({0.0F, -static_cast<float>(kFarthest), kBallHeight});
+    trial_->physics().setBallPosition(Vector3(0.0, -kFarthest, setup_.physics.ballRadius).cast<float>());
     trial_->settle(X_FR);
   }
 

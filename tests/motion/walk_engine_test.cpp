@@ -372,8 +372,6 @@ TEST(WalkEngine, TorsoShiftsIntoTheCurve) {
   EXPECT_NEAR(leaning.y(), upright.y() * std::cos(angle) - upright.z() * std::sin(angle), 1e-6);
 }
 
-// Outside what a physical reading would allow nothing breaks: finite angles within the limits for random sets
-// from the whole declared ranges.
 // Level feet below a leaning torso: the commanded soles are turned by the tilt against the torso, as far as
 // it is beyond the limit, and below the limit nothing changes at all.
 TEST(WalkEngine, LevelsTheFeetBelowATorsoThatTiltsFar) {
@@ -448,6 +446,8 @@ TEST(WalkEngine, DoesNotLeapBackToFullSpeedAfterAStumble) {
   EXPECT_NEAR(walker.engine.trace().step.translation.x(), full, 1e-3);
 }
 
+// Outside what a physical reading would allow nothing breaks: finite angles within the limits for random sets
+// from the whole declared ranges.
 TEST(WalkEngine, SurvivesEverySetWithinTheRanges) {
   Random random(17);
   for (int k = 0; k < 300; ++k) {
