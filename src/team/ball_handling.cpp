@@ -211,12 +211,14 @@ MotionRequest kick(const Task& task) {
 
 // The last steps before a kick: to where the ball lies in front of the nearer foot, slowing down.
 MotionRequest lineUp(const Task& task, const BallHandlingParameters& p) {
-  constexpr double kMost = 0.8;  // m/s
+  constexpr double kMost = 0.8;   // m/s
+  constexpr double kNear = 0.01;  // m, from here on the least speed fades
   const double foot = task.besides >= 0.0 ? 1.0 : -1.0;
   const Vector2 place = task.ball - p.kickAhead * task.along - foot * p.kickAside * task.aside;
   MotionRequest request;
   request.kind = MotionRequest::Kind::WalkVelocity;
-  const Vector2 speed = p.kickGain * place;
+  // Small steps may lead nowhere: the least speed keeps a robot from stopping short of its place for ever.
+  const Vector2 speed = (p.kickGain + p.kickLeastSpeed / std::max(place.norm(), kNear)) * place;
   request.velocity.translation = speed * std::min(1.0, kMost / std::max(speed.norm(), 1e-9));
   request.velocity.rotation = p.kickGain * task.direction;
   return request;

@@ -5,6 +5,8 @@
 #include "nonet/lab/robot_trial.h"
 #include "nonet/lab/walk_report.h"
 
+#include "motion/trial_setup.h"
+
 namespace nonet::lab {
 namespace {
 
@@ -36,6 +38,20 @@ TEST_P(EveryType, StandsStill) {
   EXPECT_LT((trial.pose().translation - start.translation).norm(), 1e-3);
   EXPECT_LT(trial.tilt(), 0.01);
   EXPECT_NEAR(trial.torsoPosition().z(), 0.88 * trial.model().standingHeight(), 0.01);
+}
+
+// With the learned sets: gains that steady the walk must not set a stand swinging.
+TEST_P(EveryType, ComesToRestInItsStand) {
+  RobotTrial trial(agentTrialSetup(GetParam()));
+  trial.settle(Pose2());
+  trial.run(velocity(0.3, 0.1, 0.0), 1.0);
+  trial.run(MotionRequest{}, 10.0);
+  double fastest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    trial.step(MotionRequest{});
+    fastest = std::max(fastest, trial.belief().body.gyro.norm());
+  }
+  EXPECT_LT(fastest, 0.2);  // rad/s
 }
 
 TEST_P(EveryType, WalksForwardSidewaysAndTurns) {

@@ -59,6 +59,46 @@ TEST(HandleBall, FirstTouchIsTowardsTheTargetFromAnyStart) {
   EXPECT_GE(good, trials * 95 / 100) << good << " of " << trials;
 }
 
+// Small steps of a real walk lead somewhere else, or nowhere: here it drifts with up to 0.13 m/s.
+bool comesToKick(const Pose2& start, const Vector2& ball, const Vector2& target, const Vector2& drift) {
+  const BallHandlingParameters parameters;
+  world::WorldState world;
+  world.self.X_FR = start;
+  world.self.localized = true;
+  world.ball.known = true;
+  world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+  for (int cycle = 0; cycle < 1000; ++cycle) {
+    world.ball.p_RB = world.self.X_FR.inverse() * ball;
+    const motion::MotionRequest request = handleBall(world, target, parameters, KickUse::IfFree);
+    Pose2 speed;
+    switch (request.kind) {
+      case motion::MotionRequest::Kind::Kick:
+        return true;
+      case motion::MotionRequest::Kind::WalkVelocity:
+        speed = request.velocity;
+        break;
+      default:
+        speed.translation = 0.5 * request.target.translation.normalized();
+        speed.rotation = std::clamp(request.target.rotation, -1.5, 1.5);
+    }
+    world.self.X_FR =
+        world.self.X_FR * Pose2(kCycleTime * (speed.translation + drift), kCycleTime * speed.rotation);
+  }
+  return false;
+}
+
+TEST(HandleBall, ComesToItsKickAlsoWhenSmallStepsLeadElsewhere) {
+  Random random(11);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vector2 ball(random.uniform(-8, 8), random.uniform(-6, 6));
+    const Pose2 start(ball.x() - random.uniform(0.5, 2.0), ball.y() + random.uniform(-1.0, 1.0),
+                      random.uniform(-1.0, 1.0));
+    const double direction = random.uniform(-kPi, kPi);
+    const Vector2 drift = 0.13 * Vector2(std::cos(direction), std::sin(direction));
+    EXPECT_TRUE(comesToKick(start, ball, Vector2(15.0, 0.0), drift)) << "trial " << trial;
+  }
+}
+
 TEST(BallTarget, LiesInTheGoalOrBringsTheBallBackToTheMiddle) {
   world::WorldState world;
   for (double x = -15; x <= 15; x += 0.5) {

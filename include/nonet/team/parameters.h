@@ -62,13 +62,14 @@ struct BallHandlingParameters {
   double alignedAngle = 0.45;
   double alignedAside = 0.10;
   bool kick = true;
-  double kickAhead = 0.18;
+  double kickAhead = 0.165;
   double kickAheadTolerance = 0.03;
   double kickAside = 0.055;
   double kickAsideTolerance = 0.03;
   double kickAngle = 0.2;
   double kickApproach = 1.2;
   double kickGain = 3.5;
+  double kickLeastSpeed = 0.1;
   double kickOpponentDistance = 1.8;
   double kickLane = 0.3;
   double handleDistance = 0.9;
@@ -122,6 +123,12 @@ struct BallHandlingParameters {
           self.kickApproach);
     visit({"kickGain", Unit::Hertz, {0.1, 20}, search(1, 8), "Kick: speed per distance in the last steps"},
           self.kickGain);
+    visit({"kickLeastSpeed",
+           Unit::MetrePerSecond,
+           {0, 1},
+           search(0, 0.3),
+           "Kick: speed of the last steps besides what kickGain gives"},
+          self.kickLeastSpeed);
     visit({"kickOpponentDistance",
            Unit::Metre,
            {0, 10},
