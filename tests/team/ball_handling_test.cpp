@@ -12,18 +12,23 @@
 namespace nonet::team {
 namespace {
 
+world::WorldState worldWith(const Pose2& self, const Vector2& ball) {
+  world::WorldState world;
+  world.self.X_FR = self;
+  world.self.localized = true;
+  world.ball.known = true;
+  world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+  return world;
+}
+
 struct Outcome {
   bool pushed = false;
   double pushError = 0.0;  // angle between the first push and the wanted direction
 };
 
 Outcome approach(const Pose2& start, const Vector2& ball, const Vector2& target) {
-  BallHandlingParameters parameters;
-  world::WorldState world;
-  world.self.X_FR = start;
-  world.self.localized = true;
-  world.ball.known = true;
-  world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+  const BallHandlingParameters parameters;
+  world::WorldState world = worldWith(start, ball);
   for (int cycle = 0; cycle < 2000; ++cycle) {
     world.ball.p_RB = world.self.X_FR.inverse() * ball;
     const motion::MotionRequest request = handleBall(world, target, parameters, KickUse::Never);
@@ -59,14 +64,10 @@ TEST(HandleBall, FirstTouchIsTowardsTheTargetFromAnyStart) {
   EXPECT_GE(good, trials * 95 / 100) << good << " of " << trials;
 }
 
-// Small steps of a real walk lead somewhere else, or nowhere: here it drifts with up to 0.13 m/s.
+// Small steps of a real walk lead somewhere else, or nowhere: here it drifts with 0.13 m/s.
 bool comesToKick(const Pose2& start, const Vector2& ball, const Vector2& target, const Vector2& drift) {
   const BallHandlingParameters parameters;
-  world::WorldState world;
-  world.self.X_FR = start;
-  world.self.localized = true;
-  world.ball.known = true;
-  world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+  world::WorldState world = worldWith(start, ball);
   for (int cycle = 0; cycle < 1000; ++cycle) {
     world.ball.p_RB = world.self.X_FR.inverse() * ball;
     const motion::MotionRequest request = handleBall(world, target, parameters, KickUse::IfFree);
