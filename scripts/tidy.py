@@ -30,6 +30,12 @@ def project_headers(path, root, seen):
                 break
 
 
+def plain(entry):
+    """The command without the precompiled header of g++, which clang cannot read; every file includes what it uses."""
+    command = re.sub(r" -Winvalid-pch| -fpch-preprocess| -include \S+cmake_pch\.hxx", "", entry["command"])
+    return {**entry, "command": command}
+
+
 def fingerprint(entry, root):
     digest = hashlib.sha256(entry["command"].encode())
     digest.update((root / ".clang-tidy").read_bytes())
@@ -57,7 +63,7 @@ def by_last_change(entries, root):
     return sorted(entries, key=last_change)
 
 
-def check(entry, root, build, stamps, deadline):
+def check(entry, root, stamps, deadline):
     """The file, whether it passed (None: no time for it), and the findings."""
     stamp = stamps / fingerprint(entry, root)
     if stamp.exists():
@@ -66,7 +72,7 @@ def check(entry, root, build, stamps, deadline):
     if left <= 0:
         return entry["file"], None, ""
     try:
-        run = subprocess.run(["clang-tidy", "--quiet", "-p", str(build), entry["file"]], cwd=root, text=True,
+        run = subprocess.run(["clang-tidy", "--quiet", "-p", str(stamps), entry["file"]], cwd=root, text=True,
                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False,
                              timeout=left if left < threading.TIMEOUT_MAX else None)
     except subprocess.TimeoutExpired:
@@ -85,15 +91,16 @@ def main():
     parser.add_argument("pattern", nargs="?", default="", help="only files whose path contains this")
     options = parser.parse_args()
     build = (root / options.build).resolve()
-    entries = [entry for entry in json.loads((build / "compile_commands.json").read_text())
+    entries = [plain(entry) for entry in json.loads((build / "compile_commands.json").read_text())
                if pathlib.Path(entry["file"]).is_relative_to(root / "src") and options.pattern in entry["file"]]
     stamps = build / "tidy"
     stamps.mkdir(exist_ok=True)
+    (stamps / "compile_commands.json").write_text(json.dumps(entries))
     deadline = time.monotonic() + options.limit
     bad = 0
     unchecked = 0
     with concurrent.futures.ThreadPoolExecutor(options.j) as pool:
-        jobs = [pool.submit(check, entry, root, build, stamps, deadline) for entry in by_last_change(entries, root)]
+        jobs = [pool.submit(check, entry, root, stamps, deadline) for entry in by_last_change(entries, root)]
         for job in concurrent.futures.as_completed(jobs):
             file, passed, text = job.result()
             if passed is None:
