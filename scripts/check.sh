@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Format, include rules and clang-tidy over the sources. scripts/check.sh [format|includes|tidy]...; default: all.
+# Format, include rules, citations and clang-tidy over the sources.
+# scripts/check.sh [format|includes|citations|tidy]...; default: all.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 checks=("$@")
-[ ${#checks[@]} -gt 0 ] || checks=(format includes tidy)
+[ ${#checks[@]} -gt 0 ] || checks=(format includes citations tidy)
 scripts/setup.sh
 
 for check in "${checks[@]}"; do
@@ -16,12 +17,16 @@ for check in "${checks[@]}"; do
     includes)
       python3 scripts/check_includes.py
       ;;
+    citations)
+      python3 scripts/check_citations.py --self-test
+      python3 scripts/check_citations.py
+      ;;
     tidy)
       [ -f build/dev/compile_commands.json ] || cmake --preset dev >/dev/null
       python3 scripts/tidy.py --build build/dev
       ;;
     *)
-      echo "check: unknown check '$check' (format, includes, tidy)" >&2
+      echo "check: unknown check '$check' (format, includes, citations, tidy)" >&2
       exit 2
       ;;
   esac

@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """Runs clang-tidy over src/*.cpp, two files at a time, those first that changed last. A file that passed is not looked
 at again until it, a header of the project, the compile command or .clang-tidy changes (stamps in BUILD/tidy). The exit
-code is 1 if anything is found; files for which the time (--limit) was too short are only counted."""
+code is 1 if anything is found; files for which the time (--limit) was too short are only counted.
+
+--changed-since REV looks only at what changed since the merge base with REV, in commits or not: sources, and for a header
+the source of the same name, or else the first one that includes it. On REV itself, and where REV is unknown, the last 20
+commits count; without a history everything."""
 import argparse
 import concurrent.futures
 import hashlib
@@ -15,6 +19,7 @@ import sys
 import threading
 import time
 
+RECENT_COMMITS = 20
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
 
 
@@ -46,19 +51,59 @@ def fingerprint(entry, root):
     return digest.hexdigest()
 
 
+def git(root, *arguments):
+    """What git says; empty where it fails."""
+    return subprocess.run(["git", *arguments], cwd=root, text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          check=False).stdout.strip()
+
+
+def base_of(root, revision):
+    """The commit after which everything counts as changed; empty without a history."""
+    base = git(root, "merge-base", "HEAD", revision)
+    if base and base != git(root, "rev-parse", "HEAD"):
+        return base
+    return git(root, "rev-list", "--first-parent", f"--max-count={RECENT_COMMITS + 1}", "HEAD").split("\n")[-1]
+
+
+def names_for(source):
+    """The source and the two places where its own header can be."""
+    header = source.removesuffix(".cpp") + ".h"
+    return source, header, "include/nonet/" + header.removeprefix("src/")
+
+
+def changed_entries(entries, root, revision):
+    base = base_of(root, revision)
+    if not base:
+        return entries
+    changed = set(git(root, "diff", "--name-only", base).split("\n"))
+    changed.update(git(root, "ls-files", "--others", "--exclude-standard").split("\n"))
+    chosen = {}
+    left = {name for name in changed if name.endswith(".h") and (root / name).is_file()}
+    for entry in entries:
+        names = names_for(str(pathlib.Path(entry["file"]).relative_to(root)))
+        left.difference_update(names)
+        if changed.intersection(names):
+            chosen[entry["file"]] = entry
+    # Headers without a source of their own are looked at through one of those that include them.
+    for name in sorted(left):
+        written = name.removeprefix("include/").removeprefix("src/")
+        for entry in entries:
+            if written in INCLUDE.findall(pathlib.Path(entry["file"]).read_text(encoding="utf-8")):
+                chosen[entry["file"]] = entry
+                break
+    print(f"tidy: {len(chosen)} of {len(entries)} files, changed since {base[:7]}")
+    return list(chosen.values())
+
+
 def by_last_change(entries, root):
     """Sorted so that a file comes first if it or its own header was changed last; without a history as they are."""
-    log = subprocess.run(["git", "log", "--format=", "--name-only"], cwd=root, text=True, stdout=subprocess.PIPE,
-                         stderr=subprocess.DEVNULL, check=False).stdout
     age = {}
-    for name in log.split("\n"):
+    for name in git(root, "log", "--format=", "--name-only").split("\n"):
         age.setdefault(name, len(age))
 
     def last_change(entry):
         source = str(pathlib.Path(entry["file"]).relative_to(root))
-        header = source.removesuffix(".cpp") + ".h"
-        names = (source, header, "include/nonet/" + header.removeprefix("src/"))
-        return min(age.get(name, len(age)) for name in names)
+        return min(age.get(name, len(age)) for name in names_for(source))
 
     return sorted(entries, key=last_change)
 
@@ -84,15 +129,19 @@ def check(entry, root, stamps, deadline):
 
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build/dev", help="folder with compile_commands.json")
     parser.add_argument("-j", type=int, default=min(2, os.cpu_count() or 1), help="files at a time")
     parser.add_argument("--limit", type=float, default=math.inf, help="seconds")
+    parser.add_argument("--changed-since", metavar="REV", help="only what changed since the merge base with REV")
     parser.add_argument("pattern", nargs="?", default="", help="only files whose path contains this")
     options = parser.parse_args()
     build = (root / options.build).resolve()
     entries = [plain(entry) for entry in json.loads((build / "compile_commands.json").read_text())
                if pathlib.Path(entry["file"]).is_relative_to(root / "src") and options.pattern in entry["file"]]
+    nothing = not entries
+    if options.changed_since:
+        entries = changed_entries(entries, root, options.changed_since)
     stamps = build / "tidy"
     stamps.mkdir(exist_ok=True)
     (stamps / "compile_commands.json").write_text(json.dumps(entries))
@@ -111,7 +160,7 @@ def main():
                 print(f"tidy: {os.path.relpath(file, root)} failed", flush=True)
     late = f", {unchecked} not checked in {options.limit:.0f} s" if unchecked else ""
     print(f"check: tidy {'ok' if not bad else 'BAD'} ({len(entries)} files, {bad} with findings{late})")
-    return 1 if bad or not entries else 0
+    return 1 if bad or nothing else 0
 
 
 if __name__ == "__main__":

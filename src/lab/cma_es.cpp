@@ -42,7 +42,7 @@ CmaEs::CmaEs(const Eigen::VectorXd& start, const CmaEsSettings& settings)
   bestFitness_ = kWorst;
 }
 
-// Table 1 and equations (49)-(58) of the tutorial.
+// [Hansen 2016, table 1 and equations (49)-(58)].
 void CmaEs::setWeights() {
   const double n = static_cast<double>(mean_.size());
   Eigen::VectorXd raw(population_);

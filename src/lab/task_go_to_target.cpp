@@ -1,4 +1,4 @@
-// goToTarget: the walk set on the whole course (AAMAS 2012, section 4.2).
+// goToTarget: the walk set on the whole course [MacAlpine 2012a, section 4.2].
 #include "nonet/lab/target_course.h"
 
 #include "tasks.h"

@@ -1,6 +1,6 @@
-// kick: from the stand, with either foot, the ball some centimetres off its place. As in AAMAS 2012, section
-// 5.2: the mean distance towards the target, -1 for a fall or a miss; what goes aside and the time it takes
-// count against it.
+// kick: from the stand, with either foot, the ball some centimetres off its place. As in [MacAlpine 2012a,
+// section 5.2]: the mean distance towards the target, -1 for a fall or a miss; what goes aside and the time
+// it takes count against it.
 #include <cmath>
 
 #include "nonet/lab/kick_report.h"

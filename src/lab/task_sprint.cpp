@@ -1,5 +1,5 @@
 // sprint: the same course with the goToTarget set as it is; the sprint set takes over when the target lies
-// straight ahead (AAMAS 2012, section 4.2), so learning it includes the changes between the two.
+// straight ahead [MacAlpine 2012a, section 4.2], so learning it includes the changes between the two.
 #include "nonet/lab/target_course.h"
 
 #include "tasks.h"

@@ -146,7 +146,7 @@ Estimate estimate(const std::vector<double>& samples) {
   if (samples.size() < 2) return result;
   double variance = 0.0;
   for (const double sample : samples) variance += (sample - result.mean) * (sample - result.mean) / (n - 1.0);
-  // Quantile 0.975 of Student's t by its expansion about the normal one (Abramowitz and Stegun 26.7.5).
+  // Quantile 0.975 of Student's t by its expansion about the normal one [Abramowitz 1964, 26.7.5].
   const double z = 1.959964;
   const double f = n - 1.0;
   const double t = z + (z * z * z + z) / (4.0 * f) +

@@ -1,6 +1,5 @@
 // Nonlinear least squares with bounds for a handful of unknowns: projected Levenberg-Marquardt on fixed-size
-// matrices, no allocation. Kanzow, Yamashita, Fukushima, "Levenberg-Marquardt methods with strong local
-// convergence properties for solving nonlinear equations with convex constraints", 2004 (projected variant).
+// matrices, no allocation. After [Kanzow 2004], the projected variant.
 #pragma once
 
 #include <algorithm>

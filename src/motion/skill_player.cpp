@@ -191,7 +191,8 @@ void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const wor
   if (instruction.kind == Instruction::Kind::Curve) planCurve(instruction, mirrored, world);
 }
 
-// From where the foot is through the points at equal times, at rest at both ends (AAMAS 2012, section 5.1.3).
+// From where the foot is through the points at equal times, at rest at both ends [MacAlpine 2012a,
+// section 5.1.3].
 void SkillPlayer::planCurve(const Instruction& instruction, bool mirrored, const world::WorldState& world) {
   const Vector3 origin =
       instruction.fromBall ? ballFromTorso(ball_.value_or(world.ball.p_RB), world.body) : Vector3::Zero();

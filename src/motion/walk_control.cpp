@@ -115,8 +115,8 @@ bool WalkControl::isCrowded(const world::WorldState& world) const {
                                   anyWithin(world.opponents, p_FR, distance, world.opponents.size()));
 }
 
-// Walks and turns at the same time, always (AAMAS 2012, section 4.2): straight at the target as fast as the
-// set allows in that direction, turning towards it when far, to the target's heading when near.
+// Walks and turns at the same time, always [MacAlpine 2012a, section 4.2]: straight at the target as fast as
+// the set allows in that direction, turning towards it when far, to the target's heading when near.
 Pose2 WalkControl::speedTowards(const MotionRequest& request) const {
   const WalkParameters& p = active_;
   // As seen from the walk frame, in which the torso turns to and fro.

@@ -110,7 +110,7 @@ double WalkEngine::stepTime(const WalkParameters& parameters) {
   return kCycleTime * std::max(1.0, std::round(parameters.phiLength / kCycleTime));
 }
 
-// The proportional filter of AAAI 2012, section "walk engine", with a bound on the change, then the brake.
+// The proportional filter of [MacAlpine 2012b, walk engine], with a bound on the change, then the brake.
 void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
   const WalkParameters& p = parameters_;
   Pose2 desired = walk ? scaled(speed, stepTime()) : Pose2{};
@@ -137,7 +137,7 @@ void WalkEngine::updateStepSize(double cycles, const Pose2& speed, bool walk) {
   if (!walk && w.cwiseAbs().maxCoeff() < kStepTolerance && std::abs(wanted_.rotation) < kTurnTolerance) {
     wanted_ = Pose2{};
   }
-  // err_norm and err_max of AAAI 2012: a large error of the centre of mass shrinks the steps.
+  // err_norm and err_max of [MacAlpine 2012b]: a large error of the centre of mass shrinks the steps.
   const double range = std::max(p.errMax - p.errNorm, 1e-6);
   const Vector2 before = step_.translation;
   step_ = scaled(wanted_, std::clamp((p.errMax - trace_.comError) / range, 0.0, 1.0));

@@ -17,7 +17,7 @@ Referee::Referee(const Settings& settings, World& world, std::vector<Player>& pl
   fouls_.reset();
 }
 
-// Server facts 1.2 phase 6 and 4: the order within a cycle.
+// The order within a cycle: server facts 1.2 (phase 6) and section 4.
 void Referee::update(int clientCount) {
   fouls_.collectContacts();
   c_.game.advance(0.02F);

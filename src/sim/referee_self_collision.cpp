@@ -15,7 +15,7 @@ using model::BodyId;
 using model::JointId;
 
 // True if `axis` separates the boxes. The server does not normalise cross products, so that a nearly parallel
-// pair of edges always separates (quirk 12 of the server facts).
+// pair of edges always separates (server facts 7.1, quirk 12).
 bool separates(const Vector3f& axis, const Vector3f& between, const ScenePose& a, const Vector3f& halfA,
                const ScenePose& b, const Vector3f& halfB, float tolerance) {
   float reach = 0.0F;

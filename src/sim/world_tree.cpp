@@ -145,7 +145,7 @@ Matrix3d rotationOf(dBodyID body) {
   return matrix;
 }
 
-/// Gyroscopic torque, implicit in the step (Lacoursiere 2006, as ODE has it): (I (I - h [L])^-1 - 1) L / h.
+/// Gyroscopic torque, implicit in the step [Lacoursiere 2006], as ODE has it: (I (I - h [L])^-1 - 1) L / h.
 Vector3d gyroscopicTorque(const Matrix3d& inertia, const Vector3d& rate, double seconds) {
   const Vector3d momentum = inertia * rate;
   const Matrix3d effective = inertia - seconds * cross(momentum);

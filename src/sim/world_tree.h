@@ -7,8 +7,8 @@
 // speeds that are asked for (error correction, motor). ODE solves this densely, with the motors' limits as a
 // complementarity problem. The joints form a tree, so eliminating child bodies from the leaves to the torso
 // gives the same answer in time proportional to their number; motors at their limit are taken out as
-// constraints and put in as torques. (The articulated-body recursion of Featherstone, Rigid Body Dynamics
-// Algorithms, 2008, chapter 7, in maximal coordinates and with the joints' compliance E.)
+// constraints and put in as torques. This is the articulated-body recursion [Featherstone 2008, chapter 7] in
+// maximal coordinates and with the joints' compliance E.
 #pragma once
 
 #include <span>

@@ -186,7 +186,7 @@ void ParticleFilter::correct(const GroundObservations& seen, const FieldMap& map
 }
 
 void ParticleFilter::resample(std::size_t count) {
-  // Low-variance resampling (Thrun et al., table 4.4).
+  // Low-variance resampling [Thrun 2005, table 4.4].
   double total = 0.0;
   for (const double weight : weights_) total += weight;
   const double step = total / static_cast<double>(count);

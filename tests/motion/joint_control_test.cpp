@@ -25,7 +25,7 @@ double printed(double radians) {
   return protocol::radiansOnWire(static_cast<float>(toDegrees(radians)));
 }
 
-/// Joints that do exactly what the server facts say (1.2, 2.4): speeds are reached at once; a command is
+/// Joints that do exactly what server facts 1.2 and 2.4 say: speeds are reached at once; a command is
 /// applied two messages later, and ignored at or beyond a stop; a joint beyond a stop is thrown back.
 class IdealRobot {
  public:

@@ -313,7 +313,7 @@ TEST(World, FrozenJointsTakeEveryCommandAsZero) {
   EXPECT_NEAR(world.jointAngle(robot, JointId::RArm1), 0.3, 1e-3);
 }
 
-// Server facts 3.4 and 7.16.
+// Server facts 3.4 and 7.1, quirk 16.
 TEST(World, SleepingRobotHoversWhenItIsMoved) {
   World world;
   const RobotHandle robot = world.addRobot(0);

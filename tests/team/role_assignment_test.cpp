@@ -64,7 +64,7 @@ TEST(RoleAssignment, ReproducesTheOrderOfFigure6) {
 }
 
 TEST(RoleAssignment, StaysTheSameWhilePlayersWalkStraightToTheirTargets) {
-  // Property 3 of the paper: dynamic consistency.
+  // Property 3 of [MacAlpine 2012a, section 6.2.1]: dynamic consistency.
   Random random(11);
   RoleAssigner assigner;
   for (int trial = 0; trial < 50; ++trial) {

@@ -104,8 +104,8 @@ struct CeresCost {
   }
 };
 
-/// d in exp(d) exp(x) = exp(x + dx) is leftJacobian(x) dx, to first order (Barfoot, "State Estimation for
-/// Robotics", chapter 7).
+/// d in exp(d) exp(x) = exp(x + dx) is leftJacobian(x) dx, to first order [Barfoot 2017,
+/// chapter 7].
 Matrix3 leftJacobian(const Vector3& x) {
   const double angle = x.norm();
   const Vector3 a = x / angle;

@@ -1,7 +1,6 @@
-// CMA-ES: covariance matrix adaptation evolution strategy, as in N. Hansen, "The CMA Evolution Strategy: A
-// Tutorial" (arXiv:1604.00772v2), with active (negative) recombination weights. Ask for a population, tell
-// the fitness of each member, repeat. Minimises. The whole state can be written and read back: a resumed run
-// continues to the last bit.
+// CMA-ES: covariance matrix adaptation evolution strategy [Hansen 2016], with active (negative) recombination
+// weights. Ask for a population, tell the fitness of each member, repeat. Minimises. The whole state can be
+// written and read back: a resumed run continues to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -94,8 +93,8 @@ class CmaEs {
   Random random_;
 };
 
-/// Restarts with growing populations: IPOP (Auger and Hansen 2005) doubles it each time; BIPOP (Hansen 2009)
-/// alternates that with short runs of small, random population and step size, giving both regimes equal
+/// Restarts with growing populations. IPOP [Auger 2005] doubles the population each time. BIPOP [Hansen 2009]
+/// alternates that with short runs of small, random population and step size, and gives both kinds equal
 /// budgets.
 enum class RestartScheme : std::uint8_t { None, Ipop, Bipop };
 

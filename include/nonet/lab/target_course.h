@@ -1,8 +1,7 @@
-// The obstacle course on which walks are learned and judged: MacAlpine et al., "Design and Optimization of an
-// Omnidirectional Humanoid Walk" (AAAI 2012), and AAMAS 2012, section 4.2. Long walks in all directions,
-// curves, quick changes, stop and go, left and right, noisy targets, weaving, extreme changes, spirals; and,
-// because a game needs them too, sidesteps and backward steps with a held heading, turns on the spot, and
-// places to be taken with a heading.
+// The obstacle course on which walks are learned and judged, after [MacAlpine 2012b] and [MacAlpine 2012a,
+// section 4.2]. Long walks in all directions, curves, quick changes, stop and go, left and right, noisy
+// targets, weaving, extreme changes, spirals; and, because a game needs them too, sidesteps and backward
+// steps with a held heading, turns on the spot, and places to be taken with a heading.
 //
 // Order, mirror images and sizes are drawn from the seed. Reward of a target: distance x time allowed / time
 // taken, or the distance made good when it was not reached in time; a stop costs the distance moved; a fall

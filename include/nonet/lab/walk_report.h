@@ -1,6 +1,6 @@
 // What a parameter set walks like: speeds in 16 directions and turning, from a stand and steady, falls, with
 // confidence intervals. Measured on the exact in-process physics with the real motion code (robot_trial.h);
-// the robot steers by its true pose with the noise of a localization (published-figures: about 25 mm).
+// the robot steers by its true pose with the noise of a localization (about 25 mm, docs/references.md).
 #pragma once
 
 #include <array>

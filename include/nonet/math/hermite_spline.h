@@ -1,5 +1,5 @@
-// Cubic Hermite curves for numbers and vectors: given place and velocity at the ends (Bartels, Beatty,
-// Barsky, "An Introduction to Splines for Use in Computer Graphics and Geometric Modeling", 1987, chapter 3).
+// Cubic Hermite curves for numbers and vectors: given place and velocity at the ends [Bartels 1987, chapter
+// 3].
 #pragma once
 
 #include <array>
@@ -59,7 +59,7 @@ class HermiteSpline {
   }
 
   /// Chooses the velocities of the knots between the ends: the slope of the parabola through a knot and its
-  /// neighbours (for equal times Catmull-Rom's).
+  /// neighbours (for equal times those of [Catmull 1974]).
   void smoothInnerKnots() {
     for (std::size_t i = 1; i + 1 < size_; ++i) {
       const double before = knots_[i].time - knots_[i - 1].time;

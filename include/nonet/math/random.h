@@ -1,6 +1,5 @@
 // Seeded random numbers that are the same on every machine and compiler (the distributions of <random> are
-// not). Generator: xoshiro256++ by Blackman and Vigna (2019), seeded through splitmix64; both are in the
-// public domain.
+// not). Generator: xoshiro256++ [Blackman 2021], seeded through splitmix64; both are in the public domain.
 #pragma once
 
 #include <array>
@@ -21,7 +20,7 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Uniform integer in [0, count); count > 0.
   std::uint64_t below(std::uint64_t count);
-  /// Standard normal (Marsaglia's polar method; the second value of each pair is kept).
+  /// Standard normal (polar method [Marsaglia 1964]; the second value of each pair is kept).
   double normal();
   double normal(double mean, double sigma) { return mean + sigma * normal(); }
   /// An independent generator for a named sub-task: the same (seed, stream) always gives the same numbers.

@@ -3,9 +3,8 @@
 //
 // Method, leg: the three hip axes meet in the hip's centre, and knee and ankle pitch turn in one plane. Seen
 // from the foot, the hip's place therefore gives ankle roll, knee and ankle pitch; what rotation is left is
-// split about the hip's axes (the 45 degree yaw-pitch axis makes them Euler angles y-x-y in a frame rolled by
-// 45 degrees, after Graf, Haertl, Roefer, Laue, "A Robust Closed-Loop Gait for the Standard Platform League
-// Humanoid", 2009, section III). Within the joint limits the solution is unique.
+// split about the hip's axes: the 45 degree yaw-pitch axis makes them Euler angles y-x-y in a frame rolled by
+// 45 degrees [Graf 2009, section III]. Within the joint limits the solution is unique.
 #pragma once
 
 #include "nonet/math/types.h"

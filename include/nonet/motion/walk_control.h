@@ -1,6 +1,6 @@
 // Walk control: a request (stand, velocity, target) -> speed and parameter set for the walk engine.
 //
-// Sets, after the AAMAS 2012 paper, section 4.2: `walk` (goToTarget) always; `sprint` when the target lies
+// Sets, after [MacAlpine 2012a, section 4.2]: `walk` (goToTarget) always; `sprint` when the target lies
 // within 15 degrees of the robot's direction; `sidestep` to walk sideways and backward without turning,
 // which the paper does not have; `positioning` near the ball (there within 0.8 m of it), and
 // here also near another robot, to stand and while stumbling: it is the set that was learned among pushes.

@@ -1,6 +1,5 @@
-// The omnidirectional walk: a double linear inverted pendulum after Graf, Haertl, Roefer, Laue, "A robust
-// closed-loop gait for the standard platform league humanoid" (2009), with the parameters of MacAlpine et al.
-// (AAAI 2012).
+// The omnidirectional walk: a double linear inverted pendulum after [Graf 2009], with the parameters of
+// [MacAlpine 2012b].
 //
 // Needs: a parameter set, the wanted speed, the measured body. Gives: both foot poses, through the inverse
 // kinematics the leg joints, and the arms.

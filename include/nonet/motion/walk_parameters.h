@@ -1,9 +1,8 @@
 // Declared parameters of the walk engine: one object is one parameter set.
 //
-// Names follow MacAlpine et al., "Design and Optimization of an Omnidirectional Humanoid Walk" (AAAI 2012),
-// table 1, where that paper names them: maxStep, y_shift, z_torso, z_step, f_g, f_a, f_s, f_m, phi_length,
-// delta_step, y_sep, x_offset, x_factor, err_norm, err_max. Ranges bound only what breaks the code: learned
-// optima lie outside what a physical reading would allow.
+// Names follow [MacAlpine 2012b, table 1], where that paper names them: maxStep, y_shift, z_torso, z_step,
+// f_g, f_a, f_s, f_m, phi_length, delta_step, y_sep, x_offset, x_factor, err_norm, err_max. Ranges bound only
+// what breaks the code: learned optima lie outside what a physical reading would allow.
 #pragma once
 
 #include "nonet/config/parameters.h"

@@ -1,4 +1,4 @@
-// Where the team should stand: role positions from the ball (2011 champion's paper, section 6.1), and the
+// Where the team should stand: role positions from the ball [MacAlpine 2012a, section 6.1], and the
 // places at kick-off. Own team's field frame, metres.
 #pragma once
 

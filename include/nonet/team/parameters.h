@@ -6,7 +6,7 @@
 namespace nonet::team {
 
 /// Role positions relative to the ball (offensive group) and on the line from the own goal to the ball
-/// (backs), after section 6.1 and Figure 5 of the 2011 champion's paper.
+/// (backs), after [MacAlpine 2012a, section 6.1 and figure 5].
 struct FormationParameters {
   double forwardAhead = 2.0;
   double forwardAside = 2.5;

@@ -1,6 +1,6 @@
 // Assigns players to role positions so that the longest way is shortest, then the second longest, and so on:
-// the lexicographic cost f_v of the 2011 champion's paper (section 6.2), by dynamic programming over sets of
-// players (Algorithm 1; n 2^(n-1) evaluations).
+// the lexicographic cost f_v of [MacAlpine 2012a, section 6.2], by dynamic programming over sets of players
+// (algorithm 1 there; n 2^(n-1) evaluations).
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // Who plays which role. Every player works out a whole assignment from its own view and tells it with its
-// radio message; what most of the last messages say is what everybody does (2011 champion's paper, section 6:
-// first formation, then the mapping f_v, then coordination by votes). So one wrong view of the world changes
-// nothing, and two players do not both go to the ball.
+// radio message; what most of the last messages say is what everybody does. First formation, then the mapping
+// f_v, then votes [MacAlpine 2012a, section 6]. So one wrong view of the world changes nothing, and two
+// players do not both go to the ball.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,7 @@
 // Monte Carlo localization over the ground pose (x, y, heading) in W: holds hypotheses and decides between
 // them.
 //
-// After Thrun, Burgard, Fox, "Probabilistic Robotics" (2005), chapter 8: prediction by odometry, weights from
+// After [Thrun 2005, chapter 8]: prediction by odometry, weights from
 // landmarks and lines, low-variance resampling when the effective sample size drops (table 4.4), and
 // re-seeding from sensor geometry when the observations fit badly (augmented MCL, section 8.3.5, and
 // sensor resetting). The number of particles follows the need: many while lost, few while tracking.
