@@ -44,7 +44,7 @@ class Reader {
     for (const auto& [key, node] : table) {
       const std::string full = prefix + std::string(key.str());
       if (full == "provenance" && node.is_table()) continue;
-      // A table made by a dotted key has no place of its own; its key has.
+      // The line of the key, since a table that comes from a dotted key has no line of its own.
       const std::string where = at(key.source().begin.line);
       if (const Field* field = find(full)) {
         readValue(*field, node, where);

@@ -97,7 +97,7 @@ std::string nearestName(const std::vector<Field>& fields, std::string_view name)
   std::string best;
   std::size_t bestDistance = std::numeric_limits<std::size_t>::max();
   for (const std::string& candidate : names) {
-    // Somebody who left the group out meant the same last part.
+    // Who left the group out meant a key with the same last part.
     const std::size_t distance =
         std::min(editDistance(name, candidate), editDistance(lastPart(name), lastPart(candidate)) + 1);
     if (distance < bestDistance) {

@@ -10,8 +10,8 @@ namespace nonet::config {
 
 namespace {
 
-// SI value = number / divisor: a division by a power of ten is exact to the last bit, a product with 0.001
-// not.
+// SI value = number / divisor. Dividing by 1000 gives the nearest double; a product with 0.001 may miss it,
+// since 0.001 is rounded itself.
 struct Spelling {
   std::string_view text;
   double divisor;

@@ -11,12 +11,15 @@
 
 namespace nonet::model {
 
-// Notation. In the upper arm, seen from the shoulder, the hand (centre of the lower arm) lies at
-//   u = (reach + f C, f T, height + f S),  C = cos q4, T = sin q4 cos q3, S = sin q4 sin q3,
-// with the elbow at (reach, 0, height) and the hand f from it; then R_R,upperarm = Ry(-q1) Rz(q2). The
-// distance of the target fixes reach C + height S = k. That leaves a curve of solutions on the unit sphere
-// (C, T, S); |q4| is least on it where T = 0, or at an end of the part that the limits leave, or where the
-// upper arm points straight to the side and the curve turns round.
+// Notation. Seen from the shoulder, in axes of the upper arm, the elbow lies at (reach, 0, height), and the
+// hand (centre of the lower arm), which is f away from the elbow, at
+//   u = (reach + f C, f T, height + f S),  C = cos q4, T = sin q4 cos q3, S = sin q4 sin q3.
+// The upper arm is turned by R_R,upperarm = Ry(-q1) Rz(q2).
+//
+// The distance of the target from the shoulder fixes reach C + height S = k. That leaves a curve of solutions
+// on the unit sphere (C, T, S). On this curve |q4| is least in one of three places: where T = 0, at an end of
+// the part that the limits leave, or where the upper arm points straight to the side and the curve turns
+// round.
 
 namespace {
 
@@ -75,8 +78,8 @@ class ArmSearch {
   const ArmAngles& angles() const { return best_; }
 
  private:
-  /// q3 or q3 + pi (sin q4 then changes sign): reach cos q4 + height sin q3 sin q4 = k. Returns the least
-  /// |q4|.
+  /// Tries both elbow angles q4 that belong to this q3: reach cos q4 + height sin q3 sin q4 = k. (A negative
+  /// q4 is the arm with q3 + pi and a positive one.) Returns the lesser |q4|.
   double tryElbowRoll(double roll) {
     const double sine = arm_.height * std::sin(roll);
     const double radius = std::hypot(arm_.reach, sine);

@@ -10,9 +10,9 @@
 
 namespace nonet::model {
 
-/// The step that lowers gradient . s + s . hessian s / 2 within low <= s <= high: unknowns that leave their
-/// range are put on its border one group after another (an active set without release: the next iteration
-/// releases).
+/// The step s that lowers gradient . s + s . hessian s / 2 within low <= s <= high. Unknowns that leave their
+/// range are put on its border and held there, one group after another. None is let go again in this step;
+/// the next iteration begins anew.
 template <int N>
 Eigen::Matrix<double, N, 1> boundedStep(const Eigen::Matrix<double, N, N>& hessian,
                                         const Eigen::Matrix<double, N, 1>& gradient,
@@ -21,7 +21,7 @@ Eigen::Matrix<double, N, 1> boundedStep(const Eigen::Matrix<double, N, N>& hessi
   std::array<bool, N> held{};
   Eigen::Matrix<double, N, 1> step = Eigen::Matrix<double, N, 1>::Zero();
   for (int i = 0; i < N; ++i) {
-    // What the gradient pushes out of its range stays where it is.
+    // An unknown on its border stays there if going down would lead out.
     held[i] = (low[i] >= 0.0 && gradient[i] > 0.0) || (high[i] <= 0.0 && gradient[i] < 0.0);
   }
   for (int round = 0; round < N; ++round) {

@@ -69,12 +69,12 @@ double legLength(const LegGeometry& leg, double knee) {
 }
 
 /// Ankle roll, ankle pitch and knee from the place of the hip seen from the foot. A hip that is too far or
-/// too near is taken as if it were on the nearest place that the knee can reach. That place is exact: with
-/// the foot's orientation kept, the hip can be anywhere between two surfaces of revolution about the roll
+/// too near is moved to the nearest place that the knee can reach. That place is found exactly: as long as
+/// the foot keeps its orientation, the hip's places lie between two surfaces of revolution about the roll
 /// axis.
 Reach solveKneeAndAnkle(const LegGeometry& leg, const Vector3& p_SHip, LegAngles& angles) {
-  // The roll stays within a quarter turn, so the hip is above or below the roll axis for the ankle as it is
-  // for the foot (below: a deep squat with the foot lifted).
+  // The roll stays within a quarter turn. So the hip is above the roll axis for the ankle if it is for the
+  // foot, and below it likewise (a deep squat with the foot lifted).
   const double hipAboveRoll = p_SHip.z() - leg.rollAboveSole;
   const double side = hipAboveRoll < 0.0 ? -1.0 : 1.0;
   angles[5] = std::atan2(side * p_SHip.y(), side * hipAboveRoll);

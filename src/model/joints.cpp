@@ -15,8 +15,8 @@ constexpr std::array<std::string_view, kBodyCount> kBodyNames = {
     "rshank",    "rankle",    "rfoot",  "rtoe",      "lhip1",     "lhip2",  "lthigh",
     "lshank",    "lankle",    "lfoot",  "ltoe"};
 
-// Where the joints of a limb start in message order, found from the name itself: a name is
-// "<limb><j|e><digit>", so the reader needs no hash table and no comparison with 24 strings.
+// The reader needs no hash table and no comparison with 24 strings: a name is "<limb><j|e><digit>", its limb
+// tells where the joints of that limb begin in message order, and its digit which of them it is.
 std::optional<JointId> jointFromName(std::string_view name, char kind) {
   if (name.size() == 3) {  // head
     if (name[0] != 'h' || name[1] != kind || name[2] < '1' || name[2] > '2') {

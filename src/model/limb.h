@@ -80,9 +80,10 @@ inline Limb<4> armLimb(const RobotModel& model, Side side) {
   return {model, side == Side::Left ? JointId::LArm1 : JointId::RArm1, Vector3::Zero()};
 }
 
-/// Difference of two poses as six numbers of length, with its derivative: position in frame R, then
-/// kOrientationLever * 2 sin(angle/2) * axis of the turn from `target` to `pose` in target axes. The half
-/// angle makes the derivative short (q = (w, v): d(2v) = w omega + v x omega) and smooth up to half a turn.
+/// Difference of two poses as six lengths, with its derivative. First the position in frame R; then
+/// kOrientationLever * 2 sin(angle/2) * axis of the turn from `target` to `pose`, in target axes. With the
+/// half angle the derivative is short (for the quaternion q = (w, v): d(2v) = w omega + v x omega), and it is
+/// smooth up to half a turn.
 struct PoseResidual {
   template <int N>
   static void evaluate(const Limb<N>& limb, const typename Limb<N>::Angles& angles, const Pose3& target,

@@ -80,7 +80,7 @@ class ZstdSource : public ByteSource {
   std::size_t read(char* out, std::size_t size) override {
     ZSTD_outBuffer output{out, size, 0};
     while (state_ != State::Corrupt && output.pos == 0) {
-      // Also at the end of the file the decompressor may hold output back, so it is asked once more.
+      // Even at the end of the file the decompressor may hold output back, so it is asked once more.
       const bool more = file_.refill();
       ZSTD_inBuffer input{file_.rest().data(), file_.rest().size(), 0};
       const std::size_t hint = ZSTD_decompressStream(stream_.get(), &output, &input);

@@ -155,7 +155,7 @@ int parseEffectors(std::string_view text, Effectors& effectors) {
       ++skipped;
       continue;
     }
-    // An expression that the text ends within counts for nothing, so it must not overwrite an earlier one.
+    // An expression that the end of the text cuts off counts for nothing: it must not replace an earlier one.
     const CommandReader begin = reader;
     if (!reader.leaveTo(0)) {
       return skipped + 1;

@@ -68,9 +68,9 @@ void appendInteger(std::string& text, int value) {
 
 namespace {
 
-/// Without the way through text, for usual sizes. The scaled number is wrong by 1e-10 at most, so unless it
-/// is next to a tie it is rounded to the right side, and the quotient of two exact numbers is rounded as
-/// strtod rounds.
+/// The fast way for numbers of usual size, without any text. The scaled number is wrong by 1e-10 at most, so
+/// unless it is next to a tie it is rounded to the right side. The quotient of two exact numbers is then
+/// rounded as strtod rounds.
 std::optional<double> quicklyToSixDigits(double value) {
   constexpr std::array kBounds{1e5, 1e4, 1e3, 1e2, 1e1, 1e0, 1e-1, 1e-2, 1e-3};
   constexpr std::array kPowers{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};

@@ -1,7 +1,7 @@
-// Declared parameters. A group of parameters is a struct with one static member template that names every
-// field once: key, field, unit, default (the field's initialiser), range and a sentence. Files in params/
-// overlay them (default <- robot type <- parameter set); the optimizer moves those that declare a search
-// range.
+// Declared parameters. A group of parameters is a struct. Its static member template `describe` names every
+// field once, with key, unit, range, search range and a sentence; the field's initialiser is the default.
+// Files in params/ overlay the defaults, first that of the robot type, then further ones. The optimizer moves
+// those parameters that declare a search range.
 //
 //   struct WalkParameters {
 //     double stepHeight = 0.03;
@@ -14,8 +14,8 @@
 //
 // Groups nest: `visit.group("walk", self.walk);` gives keys like "walk.stepHeight" (a TOML table).
 // Fields are double, int or bool. Values in files are SI numbers or texts with a unit: "17deg", "97mm",
-// "20ms", "1.5m/s", "30deg/s", "9.81m/s^2", "2N", "350g", "50Hz". A text is exact where the unit is decimal:
-// "97mm" is the same double as 0.097; "17deg" is that of toRadians(17).
+// "20ms", "1.5m/s", "30deg/s", "9.81m/s^2", "2N", "350g", "50Hz". Decimal units lose nothing: "97mm" is the
+// same double as 0.097. "17deg" is the double toRadians(17).
 #pragma once
 
 #include <concepts>
@@ -55,8 +55,8 @@ inline constexpr std::optional<Range> fixed = std::nullopt;
 struct Declaration {
   std::string_view key;
   Unit unit = Unit::None;
-  Range range;                       // outside it the code would break
-  std::optional<Range> searchRange;  // where the optimizer starts; absent: it never moves this value
+  Range range;                       // outside it the code breaks
+  std::optional<Range> searchRange;  // a search starts within it; absent: no search moves it
   std::string_view text;
 };
 
@@ -68,7 +68,7 @@ struct ParameterView {
   double value = 0.0;
 };
 
-/// Names file and line, and what to do.
+/// what() names file and line, and says what to do.
 class ParameterError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

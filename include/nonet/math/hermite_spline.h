@@ -1,5 +1,5 @@
-// Cubic Hermite curves for numbers and vectors: given place and velocity at the ends [Bartels 1987, chapter
-// 3].
+// Cubic Hermite curves for numbers and vectors, given by place and velocity at their ends [Bartels 1987,
+// chapter 3].
 #pragma once
 
 #include <array>
@@ -78,7 +78,8 @@ class HermiteSpline {
     const std::size_t i = pieceAt(time);
     return piece(i).at(time - knots_[i].time);
   }
-  /// At an end: the velocity of its knot; beyond it the end's as well, although the place stands still.
+  /// Before the first and after the last knot this is the velocity of that knot, although the place stands
+  /// still there.
   T velocityAt(double time) const {
     assert(size_ > 0);
     if (time <= knots_[0].time) return knots_[0].velocity;

@@ -1,10 +1,10 @@
-// Closed-form inverse kinematics of the legs and arms. No allocation; an exact leg solution costs well below
-// 2 microseconds (tests/bench/model_bench.cpp), one at the joint limits some tens.
+// Closed-form inverse kinematics of the legs and arms, without allocation. An exact solution for a leg takes
+// well below 2 microseconds, one at the joint limits some tens (tests/bench/model_bench.cpp).
 //
-// Method, leg: the three hip axes meet in the hip's centre, and knee and ankle pitch turn in one plane. Seen
-// from the foot, the hip's place therefore gives ankle roll, knee and ankle pitch; what rotation is left is
-// split about the hip's axes: the 45 degree yaw-pitch axis makes them Euler angles y-x-y in a frame rolled by
-// 45 degrees [Graf 2009, section III]. Within the joint limits the solution is unique.
+// Method for a leg. The three hip axes meet in one point, and knee and ankle pitch turn in one plane. So the
+// place of that point, seen from the foot, gives ankle roll, ankle pitch and knee. The rotation that is left
+// belongs to the hip. As its first axis lies at 45 degrees, its angles are Euler angles y-x-y in a frame that
+// is rolled by 45 degrees [Graf 2009, section III]. Within the joint limits the solution is unique.
 #pragma once
 
 #include "nonet/math/types.h"
@@ -20,22 +20,22 @@ enum class Reach : std::uint8_t {
 };
 
 /// Where no exact solution exists, a foot that is turned by one radian counts as much as one that is this far
-/// off, m. It is about what the tip of the foot then moves by.
+/// off, m. That is about the way of the foot's tip in such a turn.
 inline constexpr double kOrientationLever = 0.08;
 
 /// Leg joints 1..6 of one side (the toe is not touched), rad.
 using LegAngles = std::array<double, 6>;
 
-/// Joint angles that bring the sole frame S (solePose) of `side` to X_RS. The foot's six degrees of freedom
-/// fix all six joints; the 45 degree hip yaw-pitch joint of each leg is its own here.
+/// Joint angles that bring the sole frame S (solePose) of `side` to X_RS. The pose fixes all six joints: each
+/// leg has a hip yaw-pitch joint of its own, unlike the real Nao, where both share one.
 Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles);
 
 /// Writes leg angles into a joint array, and reads them back.
 void setLegAngles(Side side, const LegAngles& leg, JointArray& joints);
 LegAngles legAngles(Side side, const JointArray& joints);
 
-/// Arm joints 1..4 that bring the centre of the lower arm to p_RH, m. Four joints for three coordinates: of
-/// all solutions within the limits it gives the one with the elbow bent least.
+/// Arm joints 1..4 that bring the centre of the lower arm to p_RH, m. Four joints reach three coordinates in
+/// many ways; this is the one within the limits that bends the elbow least.
 using ArmAngles = std::array<double, 4>;
 Reach armInverseKinematics(const RobotModel& model, Side side, const Vector3& p_RH, ArmAngles& angles);
 void setArmAngles(Side side, const ArmAngles& arm, JointArray& joints);

@@ -51,13 +51,14 @@ bool isSayable(std::string_view message);
 /// scene file stands for rsg/agent/nao/nao_hetero.rsg with the robot type.
 void writeEffectors(const Effectors& effectors, std::string& text);
 
-/// Reads an agent's message with the server's tolerance (extra values ignored, unknown names counted, the
-/// last of equal effectors wins, C-style numbers, an incomplete expression at the end dropped). `effectors`
-/// is cleared first. Returns the number of things skipped; messages that are not sayable are among them.
+/// Reads an agent's message with the server's tolerance. Extra values are ignored, unknown names counted,
+/// numbers read as in C. Of equal effectors the last one wins, and an incomplete expression at the end is
+/// dropped. `effectors` is cleared first. Returns how many things were skipped, messages that are not sayable
+/// among them.
 int parseEffectors(std::string_view text, Effectors& effectors);
 
-/// Rounds all numbers as writeEffectors() and parseEffectors() would, to the last bit: what an in-process
-/// server must do so that it gets what a server at the other end of a socket gets.
+/// Rounds all numbers to the last bit as writeEffectors() and parseEffectors() would. So a server in the same
+/// process gets what a server at the other end of a socket gets.
 void roundAsWritten(Effectors& effectors);
 
 }  // namespace nonet::protocol

@@ -22,11 +22,11 @@ class FrameReader {
  public:
   explicit FrameReader(std::size_t maxLength = kDefaultMaxFrame) : maxLength_(maxLength) {}
 
-  /// Room for `size` bytes to be received into; then say with received() how many came. Both end the life of
-  /// the views that next() has given.
+  /// Room to receive `size` bytes into; then call received() with the number that came. After either call the
+  /// views that next() has given are no longer valid.
   std::span<char> prepare(std::size_t size);
   void received(std::size_t size);
-  /// The same with bytes that lie elsewhere.
+  /// Does both with bytes that lie elsewhere.
   void append(std::string_view bytes);
 
   /// The next complete message (it may be empty), nothing if more bytes are needed or the stream has failed.

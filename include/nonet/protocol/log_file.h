@@ -3,8 +3,8 @@
 //     # nonet-log 1 {"version": ..., "team": ..., "unum": ..., "type": ..., "seed": ..., ...}
 //     < (time (now 7.30))(GS ...)...       from the server
 //     > (he1 0.5)(syn)                     to the server
-//     = {"t": 7.3, "ball": [...], ...}     ground truth of the message before (recordings of experiments
-//     only) # anything                           comment
+//     = {"t": 7.3, "ball": [...], ...}     truth of the message before (experiments only)
+//     # anything                           comment
 //
 // We write them compressed with zstd. Plain text and gzip are read as well; the kind is seen from the first
 // bytes, not from the name.

@@ -306,8 +306,7 @@ class BasicSexprReader {
 
   // [-]digits[.digits] with at most 15 digits and followed by the end of the atom, which is nearly every
   // number on the wire. Mantissa and power of ten are exact in double, so one division gives the correctly
-  // rounded value [Clinger 1990, the fast path]: the same
-  // bits as std::from_chars, in a fraction of the time.
+  // rounded value [Clinger 1990, the fast path]: the same bits as std::from_chars, in a fraction of the time.
   bool shortDecimal(double& value) {
     constexpr std::array<double, 16> kPowers = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
