@@ -3,17 +3,17 @@
 
 #include <fmt/format.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
-#include "nonet/lab/agent_setup.h"
-#include "nonet/lab/kick_report.h"
+#include "nonet/lab/reports/kick_report.h"
 
 namespace nonet::app {
 
 namespace {
 
 struct KickReportArguments {
-  lab::AgentChoice choice;
+  agent::AgentChoice choice;
   lab::KickReportSettings settings;
   bool walking = false;
   bool json = false;
@@ -23,7 +23,7 @@ int run(const KickReportArguments& arguments) {
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   if (arguments.walking) settings.from = lab::KickFrom::Walk;
-  settings.setup = lab::trialSetup(lab::makeAgentConfig(arguments.choice, dataFolder()));
+  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder()));
   const lab::KickReport report = lab::measureKicks(settings);
   fmt::print("{}", arguments.json ? lab::kickReportJson(report) : lab::kickReportTable(report));
   return 0;

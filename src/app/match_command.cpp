@@ -8,7 +8,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/tcp_match.h"
-#include "nonet/lab/match_localization.h"
+#include "nonet/lab/reports/match_localization.h"
 
 namespace nonet::app {
 namespace {

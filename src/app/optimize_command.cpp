@@ -16,10 +16,10 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/config/parameters.h"
-#include "nonet/lab/evaluator_mpi.h"
-#include "nonet/lab/optimization_run.h"
-#include "nonet/lab/optimize_report.h"
-#include "nonet/lab/solver_comparison.h"
+#include "nonet/lab/optimize/evaluator_mpi.h"
+#include "nonet/lab/optimize/optimization_run.h"
+#include "nonet/lab/optimize/optimize_report.h"
+#include "nonet/lab/optimize/solver_comparison.h"
 
 namespace nonet::app {
 namespace {

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/app/turn.h"
-#include "nonet/lab/agent_setup.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/log_file.h"
 
@@ -50,7 +50,8 @@ class PlayClient {
         signals_(io_, SIGINT, SIGTERM) {
     if (!options.record.empty()) {
       log_ = std::make_unique<protocol::LogWriter>(options.record, options.recordHeader);
-      if (options.session.agent.startPose) log_->comment(lab::startComment(*options.session.agent.startPose));
+      if (options.session.agent.startPose)
+        log_->comment(agent::startComment(*options.session.agent.startPose));
     }
   }
 
@@ -210,14 +211,14 @@ class PlayClient {
   }
 
   void watchStage() {
-    if (session_.stage() == lab::Session::Stage::Refused) {
+    if (session_.stage() == agent::Session::Stage::Refused) {
       finish(PlayExit::Refused, fmt::format("the server did not take {} {} into a team: the number is taken, "
                                             "there are two other teams already, "
                                             "or too many robots of type {} (at most 7 of a type, 9 of two "
                                             "types, and 3 types in a full team)",
                                             options_.session.agent.team, options_.session.agent.unum,
                                             options_.session.agent.robotType));
-    } else if (session_.stage() == lab::Session::Stage::Playing && !accepted_) {
+    } else if (session_.stage() == agent::Session::Stage::Playing && !accepted_) {
       accepted_ = true;
       turn_.release();
       const protocol::GameStatus& game = session_.percept().game;
@@ -272,7 +273,7 @@ class PlayClient {
   }
 
   void report() {
-    const lab::SessionCounts& counts = session_.counts();
+    const agent::SessionCounts& counts = session_.counts();
     if (counts.messages > 0) {
       say("{} messages, {} answered, {} passed over for a newer one, {} cycles without a message, {} unknown "
           "tokens",
@@ -293,7 +294,7 @@ class PlayClient {
   }
 
   PlayOptions options_;
-  lab::Session session_;
+  agent::Session session_;
   Turn turn_;
   asio::io_context io_{1};
   asio::signal_set signals_;

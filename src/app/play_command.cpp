@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/play_client.h"
-#include "nonet/lab/agent_setup.h"
 
 namespace nonet::app {
 namespace {
 
 struct PlayArguments {
-  lab::AgentChoice choice;
+  agent::AgentChoice choice;
   PlayOptions play;
   std::string sync = "auto";
   std::vector<double> start;  // x, y in metres; heading 0
@@ -24,12 +24,12 @@ int runPlay(PlayArguments& arguments) {
     fmt::print("challenge {}: the agent starts at its place and plays as in a match\n", arguments.challenge);
   }
   PlayOptions& play = arguments.play;
-  play.session.agent = lab::makeAgentConfig(arguments.choice, dataFolder());
+  play.session.agent = agent::makeAgentConfig(arguments.choice, dataFolder());
   // A server in real time ignores (syn), so there is nothing to find out: auto means on, and takes care of
   // servers that hang before the first message.
   play.session.sync = arguments.sync != "off";
   play.rescue = arguments.sync == "auto";
-  play.recordHeader = lab::logHeader(play.session.agent, NONET_VERSION);
+  play.recordHeader = agent::logHeader(play.session.agent, NONET_VERSION);
   return static_cast<int>(nonet::app::play(play));
 }
 
@@ -38,7 +38,7 @@ int runPlay(PlayArguments& arguments) {
 void addPlayCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("play", "One agent plays on a server");
   auto arguments = std::make_shared<PlayArguments>();
-  lab::AgentChoice& choice = arguments->choice;
+  agent::AgentChoice& choice = arguments->choice;
   PlayOptions& play = arguments->play;
   command->add_option("--host", play.host, "Host of the server")->capture_default_str();
   command->add_option("--port", play.port, "Port for agents")

@@ -9,8 +9,8 @@
 
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
-#include "nonet/lab/localization_report.h"
-#include "nonet/lab/replay.h"
+#include "nonet/lab/reports/localization_report.h"
+#include "nonet/lab/reports/replay.h"
 
 namespace nonet::app {
 namespace {
@@ -55,7 +55,7 @@ void printLocalization(const lab::LocalizationReport& report, const std::string&
 bool replayOne(const std::string& file, ReplayArguments& arguments, lab::LocalizationReport& all) {
   lab::LocalizationReport localization;
   if (arguments.localization) {
-    arguments.options.observer = [&](const lab::Session& session) {
+    arguments.options.observer = [&](const agent::Session& session) {
       localization.add(session.percept(), session.agent().world());
       all.add(session.percept(), session.agent().world());
     };

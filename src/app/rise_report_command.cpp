@@ -3,17 +3,17 @@
 
 #include <fmt/format.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
-#include "nonet/lab/agent_setup.h"
-#include "nonet/lab/rise_report.h"
+#include "nonet/lab/reports/rise_report.h"
 
 namespace nonet::app {
 
 namespace {
 
 struct RiseReportArguments {
-  lab::AgentChoice choice;
+  agent::AgentChoice choice;
   lab::RiseReportSettings settings;
   bool json = false;
 };
@@ -21,7 +21,7 @@ struct RiseReportArguments {
 int run(const RiseReportArguments& arguments) {
   lab::RiseReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup = lab::trialSetup(lab::makeAgentConfig(arguments.choice, dataFolder()));
+  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder()));
   const lab::RiseReport report = lab::measureRising(settings);
   fmt::print("{}", arguments.json ? lab::riseReportJson(report) : lab::riseReportTable(report));
   return 0;

@@ -129,7 +129,7 @@ class TcpMatch {
 
   void startAgents() {
     for (const lab::PlayerRecord& player : watcher_.result().players) {
-      const lab::AgentChoice agent = lab::agentChoice(options_.match, player.rightTeam, player.unum);
+      const agent::AgentChoice agent = lab::agentChoice(options_.match, player.rightTeam, player.unum);
       // Nothing but the messages may decide what an agent sends.
       std::vector<std::string> command = {executablePath(), "play", "--host",   "127.0.0.1",
                                           "--sync",         "on",   "--at-once"};

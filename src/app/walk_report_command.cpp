@@ -7,17 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
-#include "nonet/lab/agent_setup.h"
-#include "nonet/lab/walk_report.h"
+#include "nonet/lab/reports/walk_report.h"
 
 namespace nonet::app {
 
 namespace {
 
 struct WalkReportArguments {
-  lab::AgentChoice choice;
+  agent::AgentChoice choice;
   lab::WalkReportSettings settings;
   lab::ServerAddress server;
   bool overTcp = false;
@@ -39,7 +39,7 @@ int run(WalkReportArguments arguments) {
     throw std::runtime_error("courses are walked in process only: leave out --tcp or --courses");
   lab::WalkReportSettings& settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup = lab::trialSetup(lab::makeAgentConfig(arguments.choice, dataFolder()));
+  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder()));
   if (arguments.overTcp) settings.server = arguments.server;
   if (!arguments.traceFile.empty()) {
     writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));

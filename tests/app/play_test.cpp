@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/app/play_client.h"
-#include "nonet/lab/agent_setup.h"
-#include "nonet/lab/replay.h"
+#include "nonet/lab/reports/replay.h"
 #include "nonet/protocol/log_file.h"
 
 #include "app/fake_server.h"
@@ -29,11 +29,11 @@ PlayOptions optionsFor(const FakeServer& server) {
   options.port = server.port();
   options.wait = 1.0;
   options.quiet = true;
-  lab::AgentChoice choice;
+  agent::AgentChoice choice;
   choice.unum = 3;
   choice.team = "Test";
   choice.robotType = 2;
-  options.session.agent = lab::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  options.session.agent = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
   return options;
 }
 
@@ -156,7 +156,7 @@ TEST(Play, TellsARefusal) {
   Player player(optionsFor(server));
   server.accept();
   server.receive();
-  for (int i = 0; i <= lab::Session::kRefusalPatience; ++i) {
+  for (int i = 0; i <= agent::Session::kRefusalPatience; ++i) {
     server.send(standingMessage(1.0 + 0.02 * i));
     server.receive(0.5);
   }
@@ -192,7 +192,7 @@ TEST(Play, AnswersOnlyTheNewestAndReplaysTheSame) {
   FakeServer server;
   PlayOptions options = optionsFor(server);
   options.record = log;
-  options.recordHeader = lab::logHeader(options.session.agent, "test");
+  options.recordHeader = agent::logHeader(options.session.agent, "test");
   Player player(options);
   server.accept();
   server.receive();
@@ -225,7 +225,7 @@ TEST(Play, EndsCleanlyOnSigterm) {
   FakeServer server;
   PlayOptions options = optionsFor(server);
   options.record = log;
-  options.recordHeader = lab::logHeader(options.session.agent, "test");
+  options.recordHeader = agent::logHeader(options.session.agent, "test");
   Player player(options);
   server.accept();
   server.receive();

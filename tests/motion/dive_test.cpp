@@ -1,7 +1,7 @@
 // The goalie's skills on the physics: how far they reach, and that the robot rises from them.
 #include <gtest/gtest.h>
 
-#include "nonet/lab/dive_trial.h"
+#include "nonet/lab/trial/dive_trial.h"
 
 #include "motion/trial_setup.h"
 

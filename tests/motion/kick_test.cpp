@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "nonet/lab/kick_report.h"
+#include "nonet/lab/reports/kick_report.h"
 #include "nonet/math/angle.h"
 
 #include "motion/trial_setup.h"

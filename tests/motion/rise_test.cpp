@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "nonet/lab/rise_report.h"
+#include "nonet/lab/reports/rise_report.h"
 #include "nonet/motion/fall_control.h"
 #include "nonet/motion/skill_library.h"
 #include "nonet/motion/skill_player.h"

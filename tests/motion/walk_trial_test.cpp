@@ -2,8 +2,8 @@
 // the same at length.
 #include <gtest/gtest.h>
 
-#include "nonet/lab/robot_trial.h"
-#include "nonet/lab/walk_report.h"
+#include "nonet/lab/reports/walk_report.h"
+#include "nonet/lab/trial/robot_trial.h"
 
 #include "motion/trial_setup.h"
 
@@ -15,7 +15,7 @@ using motion::MotionRequest;
 TrialSetup setupFor(int type) {
   TrialSetup setup;
   setup.robotType = type;
-  setup.skillFolder = std::string(NONET_SOURCE_DIR) + "/skills";
+  setup.skillFolder = NONET_SOURCE_DIR "/skills";
   setup.motion.skills = motion::declareSkillParameters(setup.skillFolder);
   return setup;
 }

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "nonet/lab/session.h"
+#include "nonet/agent/session.h"
 #include "nonet/protocol/log_file.h"
 
 namespace nonet::app {
@@ -21,7 +21,7 @@ enum class PlayExit : int {
 struct PlayOptions {
   std::string host = "127.0.0.1";
   int port = 3100;
-  lab::SessionOptions session;
+  agent::SessionOptions session;
   std::string record;  // log file; empty: none
   protocol::LogHeader recordHeader;
   std::string report;   // JSON of what was counted, written at the end; empty: none

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "nonet/app/console.h"
-#include "nonet/lab/match.h"
+#include "nonet/lab/match/match.h"
 
 namespace nonet::app {
 

@@ -1,0 +1,45 @@
+// From choices on a command line, or the header of a log, to a complete agent configuration.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nonet/agent/agent.h"
+#include "nonet/protocol/log_file.h"
+
+namespace nonet::agent {
+
+struct AgentChoice {
+  int unum = 0;  // 1..11, 0: the server chooses
+  std::string team = "Nonet";
+  int robotType = 0;  // 0..4
+  std::uint64_t seed = 1;
+  bool learned = true;                      // begin with params/type<robotType>.toml
+  std::vector<std::string> parameterFiles;  // overlaid in this order
+  std::optional<Pose2> startPose;           // own field frame
+};
+
+/// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml if there is one, then
+/// the given files. Throws config::ParameterError. `dataFolder` holds params/ and skills/.
+AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFolder);
+
+/// What the header of a log must hold so that agentFromLog() builds the same agent.
+protocol::LogHeader logHeader(const AgentConfig& config, const std::string& version);
+
+/// The same agent as the one that wrote the header. The start pose stands in a comment of its own.
+AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder);
+std::string startComment(const Pose2& start);
+std::optional<Pose2> startFromComment(std::string_view comment);
+
+/// The seed of one agent of a match: the match's seed and the agent decide, so no two agents draw the same
+/// numbers.
+std::uint64_t agentSeed(std::uint64_t matchSeed, bool rightTeam, int unum);
+
+/// Robot types by uniform number (index 0 unused), such that any first n of a team pass the server's type
+/// rules (facts 1.4). The same list is in scripts/start.sh.
+int usualRobotType(int unum);
+
+}  // namespace nonet::agent

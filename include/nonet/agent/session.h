@@ -1,0 +1,80 @@
+// One agent's conversation with a server, without sockets: handshake, answers and the count of losses. The
+// `play` command feeds it from TCP, `replay` from a log; both get the same bytes for the same messages.
+//
+// Handshake (server facts 1.3, 1.9): `(scene ..)(syn)` at once, because a lock-step server waits for nobody's
+// (syn) only in the first five cycles of a connection; `(init ..)(syn)` in answer to the first message; from
+// then on the agent answers. Every batch of messages is answered with exactly one (syn).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "nonet/agent/agent.h"
+#include "nonet/protocol/effectors.h"
+#include "nonet/protocol/percept.h"
+
+namespace nonet::agent {
+
+struct SessionOptions {
+  AgentConfig agent;
+  bool sync = true;  // end every answer with (syn); a server that runs in real time ignores it
+};
+
+struct SessionCounts {
+  long messages = 0;    // sense messages received
+  long answers = 0;     // answers given
+  long passedOver = 0;  // messages that were absorbed but not answered, because a newer one was there already
+  long lostCycles = 0;  // cycles whose message never came (gaps in the server's time)
+  long unknownTokens = 0;  // predicates or values that the parser skipped
+};
+
+class Session {
+ public:
+  enum class Stage {
+    Connecting,   // nothing received yet
+    Introducing,  // init is sent or about to be, the server has not named team and number yet
+    Playing,      // the server has accepted us
+    Refused,      // it has not, after kRefusalPatience messages
+  };
+
+  explicit Session(const SessionOptions& options);
+  ~Session();
+
+  /// The first text of a connection. May be called again if the connection is made anew before any message
+  /// came.
+  std::string_view begin();
+  /// Absorbs one sense message: parses it and steps the agent.
+  void receive(std::string_view message);
+  /// The one answer to all messages since the last one; empty if there were none. What the agent wanted in
+  /// messages that were passed over and that must not get lost (beam, say, pass) goes along.
+  std::string_view answer();
+
+  Stage stage() const { return stage_; }
+  const SessionCounts& counts() const { return counts_; }
+  /// The last message received.
+  const protocol::Percept& percept() const { return percept_; }
+  const Agent& agent() const { return *agent_; }
+
+  /// Messages without team and number after init that mean a refusal: the server's answer takes two
+  /// (facts 1.3), one second of them leaves room for late ones.
+  static constexpr int kRefusalPatience = 50;
+
+ private:
+  void countGap();
+  void watchAcceptance();
+  void keepOnce(const protocol::Effectors& older);
+  std::string_view write();
+
+  SessionOptions options_;
+  std::unique_ptr<Agent> agent_;
+  protocol::Percept percept_;
+  protocol::Effectors outgoing_;
+  SessionCounts counts_;
+  std::string text_;
+  Stage stage_ = Stage::Connecting;
+  int pending_ = 0;          // messages since the last answer
+  double smoothTime_ = 0.0;  // estimate of the server's time at the last message, s
+};
+
+}  // namespace nonet::agent

@@ -1,0 +1,136 @@
+// Whole matches between two teams of our agents: what is counted in them, and how they are played in one
+// process, without sockets and text. Over TCP the `match` command plays them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "nonet/agent/agent.h"
+#include "nonet/agent/agent_setup.h"
+#include "nonet/sim/invariants.h"
+#include "nonet/sim/settings.h"
+#include "nonet/sim/simulation.h"
+
+namespace nonet::lab {
+
+struct TeamChoice {
+  std::string name;
+  int players = 9;  // numbers 1 to players; 0: the team stays away
+  std::vector<std::string> parameterFiles;
+  std::string dataFolder;  // with params/ and skills/; empty: the program's own
+};
+
+struct MatchChoice {
+  TeamChoice left{"Nonet", 9, {}, {}};
+  TeamChoice right{"Guests", 9, {}, {}};
+  std::uint64_t seed = 1;
+  double minutes = 10.0;   // of game time in all, two halves
+  double kickOffWait = 5;  // s of simulated time before each half, to take one's place
+  sim::Settings settings;
+  std::string monitorLog;  // file for the monitor stream, none if empty
+  bool check = false;      // watch the simulation's invariants
+};
+
+/// Who plays, for people.
+std::string matchTitle(const MatchChoice& choice);
+
+/// The settings of a match as chosen: half time, automatic kick-off, names of the teams.
+sim::Settings matchSettings(const MatchChoice& choice);
+
+/// One robot's agent as chosen.
+agent::AgentChoice agentChoice(const MatchChoice& choice, bool rightTeam, int unum);
+
+/// What happened to one player.
+struct PlayerRecord {
+  bool rightTeam = false;
+  std::string team;
+  int unum = 0;
+  int robotType = 0;
+  bool connected = false;  // came to play at all
+  bool gone = false;       // left before the end
+  int falls = 0;           // times it lay down, whoever was to blame
+  double standingAfterKickOff =
+      0;  // s of simulated time from the first kick-off to the first fall, or to the end
+  // From the agent's own report.
+  long messages = 0;
+  long passedOver = 0;  // messages answered too late: a newer one was there already
+  long lostCycles = 0;  // cycles whose message never came
+  std::string ending;   // "" for an agent that played to the end, otherwise why it did not
+};
+
+struct MatchResult {
+  std::string teamLeft;
+  std::string teamRight;
+  int scoreLeft = 0;
+  int scoreRight = 0;
+  double gameTime = 0.0;  // s
+  bool finished = false;  // reached GameOver
+  long cycles = 0;
+  double wallTime = 0.0;  // s, from the first cycle
+  std::uint64_t seed = 0;
+  std::uint64_t signature = 0;   // of the simulation at the end: equal matches have equal ones
+  long timeouts = 0;             // lock-step: times that the server gave up waiting for an agent
+  long droppedMessages = 0;      // that slow readers did not get
+  std::uint64_t violations = 0;  // of invariants, if they were watched
+  std::string invariants;        // what was watched and found, lines; empty if not
+  std::vector<PlayerRecord> players;
+
+  int falls(bool rightTeam) const;
+  /// Every player came, stayed to the end, and answered every message in time.
+  bool flawless() const;
+  nlohmann::ordered_json toJson() const;
+  std::string toText() const;
+};
+
+/// Watches a simulation cycle by cycle. Needs nothing of the agents.
+class MatchWatcher {
+ public:
+  explicit MatchWatcher(const MatchChoice& choice);
+
+  void update(const sim::Simulation& simulation);
+  /// So far.
+  const MatchResult& result() const { return result_; }
+  MatchResult& result() { return result_; }
+  /// The result with the simulation's signature.
+  MatchResult finish(const sim::Simulation& simulation);
+  /// One line: clock, score, play mode, ball, falls per team.
+  std::string progress(const sim::Simulation& simulation) const;
+
+ private:
+  enum class Stance : std::uint8_t { Unknown, Standing, Fallen };
+
+  PlayerRecord* find(bool rightTeam, int unum);
+
+  MatchResult result_;
+  std::vector<Stance> stances_;         // beside result_.players
+  std::optional<double> firstKickOff_;  // server time, s
+  std::optional<sim::Invariants> invariants_;
+};
+
+/// A message that an agent has absorbed, and what it made of it.
+struct Thought {
+  sim::AgentHandle handle = sim::kNoAgent;
+  const protocol::Percept& percept;
+  const agent::Agent& agent;
+  const protocol::Effectors& answer;
+};
+
+/// What may be watched in a match in one process.
+struct MatchObservers {
+  /// After every cycle; false ends the match.
+  std::function<bool(const sim::Simulation&, const MatchWatcher&)> afterCycle;
+  /// After every message of every agent, before the next cycle; for measurements.
+  std::function<void(const Thought&)> afterThought;
+};
+
+/// Plays a match in this process. The result does not depend on `threads`.
+MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFolder, int threads,
+                          const MatchObservers& observers = {});
+
+}  // namespace nonet::lab

@@ -1,0 +1,81 @@
+// One optimization as a folder: config.json (what is optimized, with every seed), generations.jsonl (one line
+// each: every point, every seed, every value), checkpoint.json (written to a new file, then renamed),
+// best.toml (the best parameters so far with their provenance). A run that is killed at any point and resumed
+// ends in the same bytes as one that was not.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nonet/lab/optimize/optimization_config.h"
+
+namespace nonet::lab {
+
+struct GenerationReport {
+  int generation = 0;  // counted from 1
+  double best = 0.0;   // fitness, mean over the trials, of the generation's best candidate
+  double mean = 0.0;   // over the candidates
+  double sigma = 0.0;
+  std::int64_t trials = 0;  // simulated so far, validations included
+  double incumbent = 0.0;  // validated fitness of the best parameters so far; NaN before the first validation
+};
+
+class OptimizationRun {
+ public:
+  /// A new run; throws std::runtime_error if the folder holds one already or another process works on it.
+  static OptimizationRun create(const std::string& folder, const OptimizationConfig& config,
+                                const std::string& dataFolder);
+  /// Continues the one in the folder; `generations` extends it. Throws std::runtime_error.
+  static OptimizationRun resume(const std::string& folder, const std::string& dataFolder,
+                                std::optional<int> generations);
+
+  /// One generation; false when all are done or CMA-ES has converged. The evaluator's objective must be
+  /// makeObjective(config(), dataFolder).
+  bool step(Evaluator& evaluator, GenerationReport& report);
+
+  const OptimizationConfig& config() const { return config_; }
+  const SearchSpace& space() const { return space_; }
+  const RestartingCmaEs& optimizer() const { return optimizer_; }
+  int generation() const { return generation_; }
+  std::int64_t trials() const { return trials_; }
+
+ private:
+  using Values = std::vector<std::vector<double>>;  // [candidate][trial]
+
+  OptimizationRun(std::string folder, const OptimizationConfig& config, std::string dataFolder);
+  Values evaluate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& points,
+                  const std::vector<std::uint64_t>& seeds);
+  Values evaluateGeneration(Evaluator& evaluator, const Eigen::MatrixXd& points,
+                            const std::vector<std::uint64_t>& seeds);
+  void validate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers);
+  std::string line(const Eigen::MatrixXd& points, const std::vector<std::uint64_t>& seeds,
+                   const Values& values, const GenerationReport& report) const;
+  void appendLine(const std::string& text);
+  void writeCheckpoint() const;
+  void readCheckpoint();
+  void writeBest() const;
+  Provenance origin() const;
+
+  std::string folder_;
+  std::shared_ptr<void> lock_;  // one process per folder: a rank that outlives mpirun would write too
+  OptimizationConfig config_;
+  std::string dataFolder_;
+  SearchSpace space_;
+  RestartingCmaEs optimizer_;
+  int generation_ = 0;  // finished ones
+  std::int64_t trials_ = 0;
+  std::int64_t bytes_ = 0;  // of generations.jsonl
+  // The best point so far, with all validations that it took part in.
+  struct Incumbent {
+    Eigen::VectorXd point;
+    std::vector<std::uint64_t> seeds;
+    std::vector<double> values;
+    int generation = 0;  // that it comes from
+    std::int64_t budget = 0;
+  } incumbent_;
+};
+
+}  // namespace nonet::lab

@@ -1,0 +1,40 @@
+// A robot that can be put somewhere and told how to walk, with its true pose: in process or on a server.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "nonet/lab/trial/robot_trial.h"
+
+namespace nonet::lab {
+
+class TrialRobot {
+ public:
+  virtual ~TrialRobot() = default;
+  /// Stands quietly at X_FR (roughly: a server moves robots to 0.01 m), whatever happened before.
+  virtual void settle(const Pose2& X_FR) = 0;
+  virtual void step(const motion::MotionRequest& request) = 0;
+  virtual Pose2 pose() const = 0;
+  virtual bool down() const = 0;
+  virtual const world::WorldState& belief() const = 0;
+
+  void run(const motion::MotionRequest& request, double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds / kCycleTime); ++i) step(request);
+  }
+};
+
+/// On the in-process physics.
+std::unique_ptr<TrialRobot> makeTrialRobot(const TrialSetup& setup);
+
+struct ServerAddress {
+  std::string host = "127.0.0.1";
+  int port = 3100;
+  int monitorPort = 3200;
+};
+
+/// On any server, embedded or real, in lock-step or real time; the true pose comes from its monitor stream.
+/// The server must be otherwise empty. Throws std::runtime_error that names the address when it cannot be
+/// reached or refuses.
+std::unique_ptr<TrialRobot> connectTrialRobot(const TrialSetup& setup, const ServerAddress& address);
+
+}  // namespace nonet::lab

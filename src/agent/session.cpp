@@ -1,0 +1,76 @@
+#include "nonet/agent/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nonet/protocol/percept_text.h"
+
+namespace nonet::agent {
+
+Session::Session(const SessionOptions& options)
+    : options_(options), agent_(std::make_unique<Agent>(options.agent)) {}
+
+Session::~Session() = default;
+
+std::string_view Session::begin() {
+  outgoing_ = agent_->hello();
+  return write();
+}
+
+void Session::receive(std::string_view message) {
+  protocol::parsePercept(message, percept_);
+  countGap();
+  ++counts_.messages;
+  counts_.unknownTokens += percept_.unknownTokens;
+  watchAcceptance();
+  if (pending_ == 0) {
+    outgoing_ = agent_->step(percept_);
+  } else {
+    ++counts_.passedOver;
+    const protocol::Effectors older = outgoing_;
+    outgoing_ = agent_->step(percept_);
+    keepOnce(older);
+  }
+  ++pending_;
+}
+
+std::string_view Session::answer() {
+  if (pending_ == 0) return {};
+  pending_ = 0;
+  ++counts_.answers;
+  return write();
+}
+
+void Session::keepOnce(const protocol::Effectors& older) {
+  if (!outgoing_.init) outgoing_.init = older.init;
+  if (!outgoing_.beam) outgoing_.beam = older.beam;
+  if (!outgoing_.say) outgoing_.say = older.say;
+  outgoing_.pass = outgoing_.pass || older.pass;
+}
+
+// Times are printed with two decimals of a number that drifts, so a single step looks like 0.01 to 0.03 s and
+// two look like 0.03 to 0.05. The smoothed time tells them apart.
+void Session::countGap() {
+  constexpr double kSmoothing = 0.1;
+  const double expected = smoothTime_ + kCycleTime;
+  const double surplus = percept_.time - expected;
+  const long lost = counts_.messages > 0 ? std::lround(surplus / kCycleTime) : 0;
+  counts_.lostCycles += std::max(lost, 0L);
+  const bool steady = counts_.messages > 0 && lost == 0;
+  smoothTime_ = steady ? expected + kSmoothing * surplus : percept_.time;
+}
+
+void Session::watchAcceptance() {
+  if (stage_ == Stage::Connecting) stage_ = Stage::Introducing;
+  if (percept_.game.unum || percept_.game.side) stage_ = Stage::Playing;
+  if (stage_ == Stage::Introducing && counts_.messages > kRefusalPatience) stage_ = Stage::Refused;
+}
+
+std::string_view Session::write() {
+  outgoing_.syn = options_.sync;
+  text_.clear();
+  protocol::writeEffectors(outgoing_, text_);
+  return text_;
+}
+
+}  // namespace nonet::agent

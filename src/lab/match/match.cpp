@@ -1,0 +1,207 @@
+#include "nonet/lab/match/match.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "nonet/math/angle.h"
+#include "nonet/protocol/play_mode.h"
+#include "nonet/sim/monitor.h"
+#include "nonet/sim/server_lobby.h"
+
+namespace nonet::lab {
+namespace {
+
+// Cosine of the torso's tilt. Between the two a robot keeps the stance it had, so a stumble counts once.
+constexpr float kFallenBelow = 0.5F;
+constexpr float kStandingAbove = 0.9F;
+constexpr int kLinger = 50;  // cycles after GameOver, as many as the server plays on
+
+bool running(protocol::PlayMode mode) {
+  return mode != protocol::PlayMode::BeforeKickOff && mode != protocol::PlayMode::GameOver;
+}
+
+struct InProcessPlayer {
+  sim::AgentHandle handle = sim::kNoAgent;
+  std::unique_ptr<agent::Agent> agent;
+  const protocol::Percept* percept = nullptr;  // of this cycle, if there is one
+  protocol::Effectors answer;
+  bool answered = false;
+  long messages = 0;
+};
+
+// The handshake that a server with a lobby plays, so that a match is the same as over TCP to the last bit.
+void enter(std::vector<InProcessPlayer>& players, sim::Simulation& simulation, std::uint64_t seed) {
+  std::vector<protocol::InitEffector> inits;
+  for (InProcessPlayer& player : players) {
+    sim::Lobby lobby(simulation.settings(), seed);
+    const protocol::Percept* percept = lobby.receive(player.agent->hello());
+    while (percept != nullptr && !lobby.ready()) percept = lobby.receive(player.agent->step(*percept));
+    inits.push_back(lobby.init().value());
+  }
+  for (const std::size_t i : sim::entryOrder(simulation.settings(), inits)) {
+    players[i].handle = simulation.enter(*players[i].agent->hello().scene, inits[i]);
+  }
+}
+
+}  // namespace
+
+std::string matchTitle(const MatchChoice& choice) {
+  if (choice.right.players == 0)
+    return fmt::format("{} alone, {} players", choice.left.name, choice.left.players);
+  return fmt::format("{} against {}, {} a side", choice.left.name, choice.right.name, choice.left.players);
+}
+
+sim::Settings matchSettings(const MatchChoice& choice) {
+  sim::Settings settings = choice.settings;
+  settings.ruleHalfTime = choice.minutes * 60.0 / 2.0;
+  settings.automaticKickOff = true;
+  settings.waitBeforeKickOff = choice.kickOffWait;
+  settings.leftTeam = choice.left.name;
+  settings.rightTeam = choice.right.name;
+  return settings;
+}
+
+agent::AgentChoice agentChoice(const MatchChoice& choice, bool rightTeam, int unum) {
+  const TeamChoice& team = rightTeam ? choice.right : choice.left;
+  agent::AgentChoice agent;
+  agent.unum = unum;
+  agent.team = team.name;
+  agent.robotType = agent::usualRobotType(unum);
+  agent.seed = agent::agentSeed(choice.seed, rightTeam, unum);
+  agent.parameterFiles = team.parameterFiles;
+  return agent;
+}
+
+MatchWatcher::MatchWatcher(const MatchChoice& choice) {
+  result_.teamLeft = choice.left.name;
+  result_.teamRight = choice.right.name;
+  result_.seed = choice.seed;
+  for (const bool rightTeam : {false, true}) {
+    const TeamChoice& team = rightTeam ? choice.right : choice.left;
+    for (int unum = 1; unum <= team.players; ++unum) {
+      PlayerRecord player;
+      player.rightTeam = rightTeam;
+      player.team = team.name;
+      player.unum = unum;
+      player.robotType = agent::usualRobotType(unum);
+      result_.players.push_back(player);
+    }
+  }
+  if (choice.check) invariants_.emplace();
+  stances_.assign(result_.players.size(), Stance::Unknown);
+}
+
+PlayerRecord* MatchWatcher::find(bool rightTeam, int unum) {
+  for (PlayerRecord& player : result_.players) {
+    if (player.rightTeam == rightTeam && player.unum == unum) return &player;
+  }
+  return nullptr;
+}
+
+void MatchWatcher::update(const sim::Simulation& simulation) {
+  const sim::MatchState& match = simulation.match();
+  ++result_.cycles;
+  if (invariants_) invariants_->check(simulation);
+  result_.scoreLeft = match.scoreLeft;
+  result_.scoreRight = match.scoreRight;
+  result_.gameTime = match.time;
+  result_.finished = match.playMode == protocol::PlayMode::GameOver;
+  if (!firstKickOff_ && running(match.playMode)) firstKickOff_ = match.serverTime;
+
+  for (PlayerRecord& player : result_.players) player.gone = player.connected;
+  for (const sim::AgentInfo& agent : simulation.agents()) {
+    if (agent.unum == 0) continue;
+    // Names stay with the team if the sides are changed at half time.
+    PlayerRecord* player = find(agent.team.view() == result_.teamRight, agent.unum);
+    if (player == nullptr) continue;
+    player->connected = true;
+    player->gone = false;
+    const float up = simulation.world().bodyPose(agent.robot, model::BodyId::Torso).rotation(2, 2);
+    Stance& stance = stances_[static_cast<std::size_t>(player - result_.players.data())];
+    if (up < kFallenBelow && stance == Stance::Standing) ++player->falls;
+    if (up < kFallenBelow) stance = Stance::Fallen;
+    if (up > kStandingAbove) stance = Stance::Standing;
+    if (firstKickOff_ && player->falls == 0 && result_.finished == false) {
+      player->standingAfterKickOff = match.serverTime - *firstKickOff_;
+    }
+  }
+}
+
+MatchResult MatchWatcher::finish(const sim::Simulation& simulation) {
+  result_.signature = simulation.signature();
+  if (invariants_) {
+    const sim::InvariantExtremes& extremes = invariants_->extremes();
+    result_.violations = invariants_->violations();
+    result_.invariants = fmt::format(
+        "invariants: {} violations; farthest beyond a stop {:.2f} deg, lowest body centre {:.3f} m, fastest "
+        "body {:.1f} m/s\n",
+        invariants_->violations(), toDegrees(extremes.overshoot), extremes.lowestCentre,
+        extremes.fastestBody);
+    for (const std::string& message : invariants_->messages()) result_.invariants += message + "\n";
+  }
+  return result_;
+}
+
+std::string MatchWatcher::progress(const sim::Simulation& simulation) const {
+  const sim::MatchState& match = simulation.match();
+  const sim::Vector3f ball = simulation.world().ballPosition();
+  const int seconds = static_cast<int>(match.time);
+  return fmt::format("{:02}:{:02} {} {} : {} {}  {:<16} ball {:6.2f} {:6.2f}  falls {} : {}", seconds / 60,
+                     seconds % 60, result_.teamLeft, match.scoreLeft, match.scoreRight, result_.teamRight,
+                     protocol::playModeName(match.playMode), ball.x(), ball.y(), result_.falls(false),
+                     result_.falls(true));
+}
+
+MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFolder, int threads,
+                          const MatchObservers& observers) {
+  sim::Settings settings = matchSettings(choice);
+  settings.threads = threads;
+  settings.threadPatience = 300;  // us: longer than what is done by one thread alone in a cycle
+  sim::Simulation simulation(settings, choice.seed);
+  MatchWatcher watcher(choice);
+  std::vector<InProcessPlayer> players;
+  for (const PlayerRecord& record : watcher.result().players) {
+    const agent::AgentChoice agent = agentChoice(choice, record.rightTeam, record.unum);
+    const std::string& own = record.rightTeam ? choice.right.dataFolder : choice.left.dataFolder;
+    players.emplace_back().agent =
+        std::make_unique<agent::Agent>(agent::makeAgentConfig(agent, own.empty() ? dataFolder : own));
+  }
+  enter(players, simulation, choice.seed);
+  std::optional<sim::MonitorLog> monitorLog;
+  if (!choice.monitorLog.empty()) monitorLog.emplace(simulation, choice.monitorLog);
+
+  // As over TCP, the agents think about the messages that beginCycle() sent while the physics goes on.
+  const sim::SharedWork thoughts{players.size(), [&players](std::size_t i) {
+                                   InProcessPlayer& player = players[i];
+                                   player.answered = player.percept != nullptr;
+                                   if (!player.answered) return;
+                                   ++player.messages;
+                                   player.answer = player.agent->step(*player.percept);
+                                 }};
+  const auto start = std::chrono::steady_clock::now();
+  int afterEnd = 0;
+  for (bool more = true; more;) {
+    for (const InProcessPlayer& player : players) {
+      if (!player.answered) continue;
+      simulation.act(player.handle, player.answer);
+      if (observers.afterThought) {
+        observers.afterThought(
+            {player.handle, *simulation.sense(player.handle), *player.agent, player.answer});
+      }
+    }
+    simulation.beginCycle();
+    for (InProcessPlayer& player : players) player.percept = simulation.sense(player.handle);
+    simulation.finishCycle(thoughts);
+    if (monitorLog) monitorLog->cycle();
+    watcher.update(simulation);
+    if (watcher.result().finished && ++afterEnd > kLinger) more = false;
+    if (observers.afterCycle && !observers.afterCycle(simulation, watcher)) more = false;
+  }
+  MatchResult result = watcher.finish(simulation);
+  for (std::size_t i = 0; i < players.size(); ++i) result.players[i].messages = players[i].messages;
+  result.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,216 @@
+#include "nonet/lab/optimize/learned_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#define TOML_ENABLE_FORMATTERS 0  // reading only
+#include <toml++/toml.h>
+
+#include "nonet/config/parameters.h"
+#include "nonet/lab/optimize/optimization_config.h"
+
+namespace nonet::lab {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kExact = "exact";
+constexpr const char* kQuick = "quick";
+
+template <class Value>
+Value require(const toml::table& table, const char* key, const std::string& path) {
+  const auto value = table[key].value<Value>();
+  if (!value) throw std::runtime_error(fmt::format("{}: a provenance table has no proper '{}'", path, key));
+  return *value;
+}
+
+Provenance provenanceFrom(const toml::table& table, const std::string& path) {
+  Provenance origin;
+  origin.task = require<std::string>(table, "task", path);
+  origin.robotType = require<int>(table, "robotType", path);
+  origin.quickSolver = require<std::string>(table, "solver", path) == kQuick;
+  origin.runSeed = static_cast<std::uint64_t>(require<std::int64_t>(table, "runSeed", path));
+  origin.population = require<int>(table, "population", path);
+  origin.generation = require<int>(table, "generation", path);
+  origin.budget = require<std::int64_t>(table, "budget", path);
+  origin.fitness = require<double>(table, "fitness", path);
+  origin.standardError = require<double>(table, "standardError", path);
+  origin.date = require<std::string>(table, "date", path);
+  origin.version = require<std::string>(table, "version", path);
+  if (const toml::array* seeds = table["seeds"].as_array()) {
+    for (const auto& seed : *seeds)
+      origin.seeds.push_back(static_cast<std::uint64_t>(seed.value_or<std::int64_t>(0)));
+  }
+  return origin;
+}
+
+std::string provenanceToml(const Provenance& origin) {
+  const auto real = [](double value) {
+    std::string text = fmt::format("{}", value);
+    if (text.find_first_of(".en") == std::string::npos) text += ".0";
+    return text;
+  };
+  return fmt::format(
+      "[provenance.{}]\n"
+      "task = \"{}\"\n"
+      "robotType = {}\n"
+      "solver = \"{}\"\n"
+      "runSeed = {}\n"
+      "population = {}\n"
+      "generation = {}\n"
+      "budget = {}\n"
+      "fitness = {}\n"
+      "standardError = {}\n"
+      "seeds = [{}]\n"
+      "date = \"{}\"\n"
+      "version = \"{}\"\n",
+      origin.task, origin.task, origin.robotType, origin.quickSolver ? kQuick : kExact, origin.runSeed,
+      origin.population, origin.generation, origin.budget, real(origin.fitness), real(origin.standardError),
+      fmt::join(origin.seeds, ", "), origin.date, origin.version);
+}
+
+std::string tableOf(const std::string& key) {
+  return key.substr(0, key.rfind('.'));
+}
+
+}  // namespace
+
+json Provenance::toJson() const {
+  return {{"task", task},
+          {"robotType", robotType},
+          {"quickSolver", quickSolver},
+          {"runSeed", runSeed},
+          {"population", population},
+          {"generation", generation},
+          {"budget", budget},
+          {"fitness", fitness},
+          {"standardError", standardError},
+          {"seeds", seeds},
+          {"date", date},
+          {"version", version}};
+}
+
+Provenance Provenance::fromJson(const json& value) {
+  Provenance origin;
+  value.at("task").get_to(origin.task);
+  value.at("robotType").get_to(origin.robotType);
+  value.at("quickSolver").get_to(origin.quickSolver);
+  value.at("runSeed").get_to(origin.runSeed);
+  value.at("population").get_to(origin.population);
+  value.at("generation").get_to(origin.generation);
+  value.at("budget").get_to(origin.budget);
+  value.at("fitness").get_to(origin.fitness);
+  value.at("standardError").get_to(origin.standardError);
+  value.at("seeds").get_to(origin.seeds);
+  value.at("date").get_to(origin.date);
+  value.at("version").get_to(origin.version);
+  return origin;
+}
+
+std::vector<Provenance> readProvenance(const std::string& path) {
+  std::vector<Provenance> origins;
+  try {
+    const toml::table file = toml::parse_file(path);
+    if (const toml::table* tables = file["provenance"].as_table()) {
+      for (const auto& [name, node] : *tables) {
+        if (const toml::table* table = node.as_table()) origins.push_back(provenanceFrom(*table, path));
+      }
+    }
+  } catch (const toml::parse_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", path, error.description()));
+  }
+  return origins;
+}
+
+void replaceProvenance(std::vector<Provenance>& list, const Provenance& origin) {
+  std::erase_if(list, [&](const Provenance& other) { return other.task == origin.task; });
+  list.push_back(origin);
+}
+
+std::string learnedToml(const agent::AgentParameters& parameters, const agent::AgentParameters& defaults,
+                        const std::vector<std::string>& searchedKeys,
+                        const std::vector<Provenance>& origins) {
+  std::set<std::string> tables;
+  for (const std::string& key : searchedKeys) tables.insert(tableOf(key));
+  agent::AgentParameters copy = parameters;
+  auto base = defaults;
+  const auto fields = config::fieldsOf(copy);
+  const auto baseFields = config::fieldsOf(base);
+  std::vector<config::detail::Field> kept;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto value = [](const config::detail::Field& field) {
+      if (field.real != nullptr) return *field.real;
+      return field.integer != nullptr ? *field.integer : static_cast<double>(*field.boolean);
+    };
+    if (tables.contains(tableOf(fields[i].key)) || value(fields[i]) != value(baseFields[i]))
+      kept.push_back(fields[i]);
+  }
+  std::string text = "# Learned values. `nonet optimize --repeat FILE` measures their fitness again.\n";
+  for (const Provenance& origin : origins) text += "\n" + provenanceToml(origin);
+  return text + "\n" + config::detail::toToml(kept, nullptr);
+}
+
+Measurement measure(const Task& task, const agent::AgentParameters& parameters,
+                    const std::vector<std::uint64_t>& seeds, const TaskSettings& settings, int threads) {
+  std::vector<TaskResult> results(seeds.size());
+  // The thread evaluator works on numbers, so the "point" says which seed it is.
+  const auto evaluator = makeThreadEvaluator(
+      [&](const Job& job) {
+        TaskResult& result = results[static_cast<std::size_t>(job.point[0])];
+        result = task.evaluate(parameters, job.seed, settings);
+        return result.fitness;
+      },
+      threads);
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+    jobs.push_back({Eigen::VectorXd::Constant(1, static_cast<double>(i)), seeds[i]});
+  const std::vector<double> values = evaluator->evaluate(jobs);
+
+  Measurement measurement;
+  if (values.empty()) return measurement;
+  const auto count = static_cast<double>(values.size());
+  for (const double value : values) measurement.fitness += value / count;
+  double squares = 0.0;
+  for (const double value : values) squares += std::pow(value - measurement.fitness, 2);
+  if (values.size() > 1) measurement.standardError = std::sqrt(squares / (count - 1.0) / count);
+  for (std::size_t m = 0; m < results[0].measures.size(); ++m) {
+    double sum = 0.0;
+    for (const TaskResult& result : results) sum += result.measures.at(m).second;
+    measurement.measures.emplace_back(results[0].measures[m].first, sum / count);
+  }
+  return measurement;
+}
+
+std::vector<Repetition> repeatLearned(const std::string& file, const std::string& dataFolder, int threads) {
+  agent::AgentParameters parameters = defaultParameters(dataFolder);
+  config::overlayFile(parameters, file);
+  std::vector<Repetition> repetitions;
+  for (const Provenance& origin : readProvenance(file)) {
+    const TaskSettings settings{
+        .robotType = origin.robotType, .quickSolver = origin.quickSolver, .dataFolder = dataFolder};
+    repetitions.push_back(
+        {origin, measure(findTask(origin.task), parameters, origin.seeds, settings, threads)});
+  }
+  return repetitions;
+}
+
+void writeAtomically(const std::string& path, const std::string& text) {
+  const std::string fresh = path + ".new";
+  {
+    std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
+    file << text;
+    file.flush();
+    if (!file) throw std::runtime_error(fmt::format("cannot write {}: is the disk full?", fresh));
+  }
+  std::filesystem::rename(fresh, path);
+}
+
+}  // namespace nonet::lab

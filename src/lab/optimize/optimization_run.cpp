@@ -1,0 +1,332 @@
+#include "nonet/lab/optimize/optimization_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace nonet::lab {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kConfig = "/config.json";
+constexpr const char* kGenerations = "/generations.jsonl";
+constexpr const char* kCheckpoint = "/checkpoint.json";
+constexpr const char* kBest = "/best.toml";
+constexpr const char* kLock = "/lock";
+
+enum Stream : int { kCandidates = 0, kValidation = 1 };
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double standardError(const std::vector<double>& values) {
+  if (values.size() < 2) return 0.0;
+  const double middle = mean(values);
+  double squares = 0.0;
+  for (const double value : values) squares += (value - middle) * (value - middle);
+  const auto count = static_cast<double>(values.size());
+  return std::sqrt(squares / (count - 1.0) / count);
+}
+
+json vectorJson(const Eigen::VectorXd& vector) {
+  return std::vector<double>(vector.begin(), vector.end());
+}
+
+Eigen::VectorXd vectorFrom(const json& value) {
+  const auto values = value.get<std::vector<double>>();
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+json readJson(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(fmt::format("cannot read {}: is this the folder of a run?", path));
+  return json::parse(file);
+}
+
+// Held until the last copy goes or the process ends, however it ends.
+std::shared_ptr<void> lockFolder(const std::string& folder) {
+  const std::string path = folder + kLock;
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0) throw std::runtime_error(fmt::format("cannot write {}", path));
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    close(file);
+    throw std::runtime_error(
+        fmt::format("another process works on {}: wait for its end or stop it first", folder));
+  }
+  return {nullptr, [file](void*) { close(file); }};
+}
+
+CmaEsSettings cmaSettings(const OptimizationConfig& config, const SearchSpace& space) {
+  return {.population = config.population,
+          .sigma = config.sigma,
+          .active = true,
+          .seed = config.seed,
+          .low = space.low(),
+          .high = space.high()};
+}
+
+// Fitness of a generation for ranking. In a race, candidates with fewer trials stay below all with more:
+// their means are over other seeds and cannot be compared.
+Eigen::VectorXd rankingFitness(const std::vector<std::vector<double>>& values, std::size_t trials) {
+  Eigen::VectorXd fitness(static_cast<Eigen::Index>(values.size()));
+  double worstFull = std::numeric_limits<double>::infinity();
+  double bestShort = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double value = mean(values[k]);
+    fitness[static_cast<Eigen::Index>(k)] = value;
+    if (values[k].size() == trials) {
+      worstFull = std::min(worstFull, value);
+    } else {
+      bestShort = std::max(bestShort, value);
+    }
+  }
+  const double shift = std::min(0.0, worstFull - bestShort);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (values[k].size() < trials) fitness[static_cast<Eigen::Index>(k)] += shift;
+  }
+  return fitness;
+}
+
+}  // namespace
+
+OptimizationRun::OptimizationRun(std::string folder, const OptimizationConfig& config, std::string dataFolder)
+    : folder_(std::move(folder)),
+      config_(config),
+      dataFolder_(std::move(dataFolder)),
+      space_(config.startParameters(dataFolder_), config.searchedKeys()),
+      optimizer_(space_.start(), cmaSettings(config, space_), config.restarts) {
+  if (config.trials < 1 || config.validationTrials < 1 || config.validationEvery < 1)
+    throw std::runtime_error("trials, validation trials and the gap between validations must be at least 1");
+  incumbent_.point = space_.start();
+}
+
+OptimizationRun OptimizationRun::create(const std::string& folder, const OptimizationConfig& config,
+                                        const std::string& dataFolder) {
+  if (fs::exists(folder + kConfig)) {
+    throw std::runtime_error(
+        fmt::format("{} holds a run already: continue it with --resume or choose another folder", folder));
+  }
+  OptimizationRun run(folder, config, dataFolder);
+  fs::create_directories(folder);
+  run.lock_ = lockFolder(folder);
+  fs::remove(folder + kCheckpoint);
+  std::ofstream generations(folder + kGenerations, std::ios::binary | std::ios::trunc);
+  generations.close();
+  writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
+  return run;
+}
+
+OptimizationRun OptimizationRun::resume(const std::string& folder, const std::string& dataFolder,
+                                        std::optional<int> generations) {
+  OptimizationConfig config = OptimizationConfig::fromJson(readJson(folder + kConfig));
+  const std::shared_ptr<void> lock = lockFolder(folder);
+  if (generations && *generations != config.generations) {
+    config.generations = *generations;
+    writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
+  }
+  OptimizationRun run(folder, config, dataFolder);
+  run.lock_ = lock;
+  // Killed before the first checkpoint: from the beginning.
+  if (fs::exists(folder + kCheckpoint)) run.readCheckpoint();
+  const std::string lines = folder + kGenerations;
+  if (!fs::exists(lines) || static_cast<std::int64_t>(fs::file_size(lines)) < run.bytes_)
+    throw std::runtime_error(
+        fmt::format("{} is shorter than its checkpoint says; the run is damaged", lines));
+  fs::resize_file(lines, static_cast<std::uintmax_t>(run.bytes_));
+  if (run.incumbent_.seeds.empty()) {
+    fs::remove(folder + kBest);
+  } else {
+    run.writeBest();
+  }
+  return run;
+}
+
+OptimizationRun::Values OptimizationRun::evaluate(Evaluator& evaluator,
+                                                  const std::vector<Eigen::VectorXd>& points,
+                                                  const std::vector<std::uint64_t>& seeds) {
+  std::vector<Job> jobs;
+  for (const Eigen::VectorXd& point : points) {
+    for (const std::uint64_t seed : seeds) jobs.push_back({point, seed});
+  }
+  const std::vector<double> flat = evaluator.evaluate(jobs);
+  trials_ += static_cast<std::int64_t>(jobs.size());
+  Values values;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto begin = flat.begin() + static_cast<std::ptrdiff_t>(k * seeds.size());
+    values.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(seeds.size()));
+  }
+  return values;
+}
+
+// All candidates get the same seeds (common random numbers). In a race the better half of the first half of
+// the trials goes on.
+OptimizationRun::Values OptimizationRun::evaluateGeneration(Evaluator& evaluator,
+                                                            const Eigen::MatrixXd& points,
+                                                            const std::vector<std::uint64_t>& seeds) {
+  std::vector<Eigen::VectorXd> all;
+  for (Eigen::Index k = 0; k < points.cols(); ++k) all.emplace_back(points.col(k));
+  if (!config_.racing || seeds.size() < 2) return evaluate(evaluator, all, seeds);
+
+  const auto half = static_cast<std::ptrdiff_t>((seeds.size() + 1) / 2);
+  Values values = evaluate(evaluator, all, {seeds.begin(), seeds.begin() + half});
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return mean(values[a]) > mean(values[b]); });
+  order.resize((order.size() + 1) / 2);
+  std::vector<Eigen::VectorXd> better;
+  better.reserve(order.size());
+  for (const std::size_t k : order) better.push_back(all[k]);
+  const Values more = evaluate(evaluator, better, {seeds.begin() + half, seeds.end()});
+  for (std::size_t i = 0; i < order.size(); ++i)
+    values[order[i]].insert(values[order[i]].end(), more[i].begin(), more[i].end());
+  return values;
+}
+
+// Fresh seeds, the same for all, and a challenger must win by more than the standard error of the paired
+// difference: the best of many noisy values is mostly luck.
+void OptimizationRun::validate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers) {
+  const auto seeds = trialSeeds(config_.seed, generation_, kValidation, config_.validationTrials);
+  std::vector<Eigen::VectorXd> points{incumbent_.point};
+  points.insert(points.end(), challengers.begin(), challengers.end());
+  const Values values = evaluate(evaluator, points, seeds);
+  std::size_t winner = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    std::vector<double> gain(seeds.size());
+    for (std::size_t i = 0; i < seeds.size(); ++i) gain[i] = values[k][i] - values[winner][i];
+    if (mean(gain) > standardError(gain)) winner = k;
+  }
+  if (winner == 0) {
+    incumbent_.seeds.insert(incumbent_.seeds.end(), seeds.begin(), seeds.end());
+    incumbent_.values.insert(incumbent_.values.end(), values[0].begin(), values[0].end());
+  } else {
+    incumbent_ = {points[winner], seeds, values[winner], generation_, trials_};
+  }
+}
+
+bool OptimizationRun::step(Evaluator& evaluator, GenerationReport& report) {
+  if (generation_ >= config_.generations || optimizer_.finished()) return false;
+  const Eigen::MatrixXd points = optimizer_.ask();
+  const auto seeds = trialSeeds(config_.seed, generation_ + 1, kCandidates, config_.trials);
+  const Values values = evaluateGeneration(evaluator, points, seeds);
+  const Eigen::VectorXd fitness = rankingFitness(values, seeds.size());
+  optimizer_.tell(-fitness);  // it minimises
+  ++generation_;
+
+  Eigen::Index best = 0;
+  report.best = fitness.maxCoeff(&best);
+  if (generation_ == 1 || generation_ % config_.validationEvery == 0)
+    validate(evaluator, {optimizer_.run().meanInBox(), points.col(best)});
+
+  report.generation = generation_;
+  report.mean = 0.0;
+  for (const auto& candidate : values) report.mean += mean(candidate) / static_cast<double>(values.size());
+  report.sigma = optimizer_.run().sigma();
+  report.trials = trials_;
+  report.incumbent =
+      incumbent_.values.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(incumbent_.values);
+  appendLine(line(points, seeds, values, report));
+  writeBest();
+  writeCheckpoint();
+  return true;
+}
+
+std::string OptimizationRun::line(const Eigen::MatrixXd& points, const std::vector<std::uint64_t>& seeds,
+                                  const Values& values, const GenerationReport& report) const {
+  json candidates = json::array();
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    candidates.push_back(
+        {{"point", vectorJson(points.col(static_cast<Eigen::Index>(k)))}, {"values", values[k]}});
+  }
+  const CmaEs& run = optimizer_.run();
+  const json whole = {{"generation", report.generation},
+                      {"best", report.best},
+                      {"mean", report.mean},
+                      {"sigma", report.sigma},
+                      {"trials", report.trials},
+                      {"restarts", optimizer_.restarts()},
+                      {"centre", vectorJson(run.meanInBox())},
+                      {"deviations", vectorJson(run.deviations())},
+                      {"seeds", seeds},
+                      {"candidates", std::move(candidates)},
+                      {"incumbent", report.incumbent},
+                      {"incumbentGeneration", incumbent_.generation},
+                      {"incumbentTrials", incumbent_.values.size()}};
+  return whole.dump() + "\n";
+}
+
+void OptimizationRun::appendLine(const std::string& text) {
+  std::ofstream file(folder_ + kGenerations, std::ios::binary | std::ios::app);
+  file << text;
+  file.flush();
+  if (!file) throw std::runtime_error(fmt::format("cannot write {}{}", folder_, kGenerations));
+  bytes_ += static_cast<std::int64_t>(text.size());
+}
+
+void OptimizationRun::writeCheckpoint() const {
+  const json state = {{"generation", generation_},
+                      {"trials", trials_},
+                      {"bytes", bytes_},
+                      {"optimizer", optimizer_.save()},
+                      {"incumbent",
+                       {{"point", vectorJson(incumbent_.point)},
+                        {"seeds", incumbent_.seeds},
+                        {"values", incumbent_.values},
+                        {"generation", incumbent_.generation},
+                        {"budget", incumbent_.budget}}}};
+  writeAtomically(folder_ + kCheckpoint, state.dump() + "\n");
+}
+
+void OptimizationRun::readCheckpoint() {
+  const json state = readJson(folder_ + kCheckpoint);
+  state.at("generation").get_to(generation_);
+  state.at("trials").get_to(trials_);
+  state.at("bytes").get_to(bytes_);
+  optimizer_ = RestartingCmaEs::restore(state.at("optimizer"));
+  const json& incumbent = state.at("incumbent");
+  incumbent_.point = vectorFrom(incumbent.at("point"));
+  incumbent.at("seeds").get_to(incumbent_.seeds);
+  incumbent.at("values").get_to(incumbent_.values);
+  incumbent.at("generation").get_to(incumbent_.generation);
+  incumbent.at("budget").get_to(incumbent_.budget);
+  if (incumbent_.point.size() != space_.dimension() || optimizer_.run().dimension() != space_.dimension())
+    throw std::runtime_error("the declared parameters have changed since the run began; start a new one");
+}
+
+Provenance OptimizationRun::origin() const {
+  return {.task = config_.task,
+          .robotType = config_.robotType,
+          .quickSolver = config_.quickSolver,
+          .runSeed = config_.seed,
+          .population = optimizer_.run().population(),
+          .generation = incumbent_.generation,
+          .budget = incumbent_.budget,
+          .fitness = mean(incumbent_.values),
+          .standardError = standardError(incumbent_.values),
+          .seeds = incumbent_.seeds,
+          .date = config_.date,
+          .version = config_.version};
+}
+
+void OptimizationRun::writeBest() const {
+  std::vector<Provenance> origins = config_.inherited;
+  replaceProvenance(origins, origin());
+  writeAtomically(folder_ + kBest, learnedToml(space_.apply(incumbent_.point), defaultParameters(dataFolder_),
+                                               space_.keys(), origins));
+}
+
+}  // namespace nonet::lab

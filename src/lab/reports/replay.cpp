@@ -1,0 +1,313 @@
+#include "nonet/lab/reports/replay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include "nonet/agent/agent_setup.h"
+#include "nonet/config/parameters.h"
+#include "nonet/protocol/log_file.h"
+#include "nonet/protocol/percept_text.h"
+
+namespace nonet::lab {
+namespace {
+
+using protocol::LogLine;
+using protocol::PerceptKind;
+
+/// Processor time of this thread, us: other programs on the machine do not count.
+double processorTime() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
+}
+
+constexpr int kMessagesToLookAt = 300;    // of a foreign log, to find out who recorded it
+constexpr double kOwnArmDistance = 0.35;  // m: no other robot's lower arm comes that near to the camera
+
+/// What a foreign log tells of its robot: the handshake if it was recorded, otherwise the number on the arms
+/// that the camera sees at a hand's breadth, and toes.
+class Identity {
+ public:
+  void look(const LogLine& line) {
+    if (line.kind == LogLine::Kind::Sent) {
+      protocol::parseEffectors(line.text, effectors_);
+      if (effectors_.scene) robotType = effectors_.scene->robotType;
+      if (effectors_.init) {
+        unum = effectors_.init->unum;
+        team = std::string(effectors_.init->team.view());
+      }
+    } else if (line.kind == LogLine::Kind::Received) {
+      protocol::parsePercept(line.text, percept_);
+      if (percept_.game.unum) unum = *percept_.game.unum;
+      if ((percept_.jointsPresent >> model::index(model::JointId::RLeg7)) & 1U) robotType = 4;
+      if (percept_.vision && !team) lookAtArms();
+    }
+  }
+
+  std::optional<int> unum;
+  std::optional<std::string> team;
+  std::optional<int> robotType;
+
+ private:
+  void lookAtArms() {
+    for (const protocol::SeenPlayer& player : percept_.vision->players) {
+      for (const auto part : {protocol::BodyPart::RLowerArm, protocol::BodyPart::LLowerArm}) {
+        const auto& arm = player.parts[static_cast<std::size_t>(part)];
+        if (arm && arm->distance < kOwnArmDistance) {
+          unum = player.unum;
+          team = std::string(player.team.view());
+        }
+      }
+    }
+  }
+
+  protocol::Effectors effectors_;
+  protocol::Percept percept_;
+};
+
+std::string_view perceptorName(PerceptKind kind) {
+  switch (kind) {
+    case PerceptKind::Time:
+      return "time";
+    case PerceptKind::GameState:
+      return "GS";
+    case PerceptKind::Hear:
+      return "hear";
+    case PerceptKind::Gyro:
+      return "GYR";
+    case PerceptKind::Accelerometer:
+      return "ACC";
+    case PerceptKind::Joint:
+      return "HJ";
+    case PerceptKind::See:
+      return "See";
+    case PerceptKind::Force:
+      return "FRP";
+  }
+  return "?";
+}
+
+std::optional<Quantiles> quantiles(std::vector<double> sample) {
+  if (sample.empty()) return std::nullopt;
+  std::sort(sample.begin(), sample.end());
+  const auto at = [&](double share) {
+    return sample[static_cast<std::size_t>(std::lround(share * static_cast<double>(sample.size() - 1)))];
+  };
+  return Quantiles{sample.size(), at(0.5), at(0.95)};
+}
+
+class Replay {
+ public:
+  Replay(const std::string& path, const ReplayOptions& options, const agent::AgentConfig& config)
+      : options_(options), reader_(path), session_({config, true}) {
+    report_.file = path;
+    report_.own = reader_.header().has_value();
+  }
+
+  ReplayReport run() {
+    LogLine line;
+    while (reader_.next(line)) {
+      if (line.kind == LogLine::Kind::Received) {
+        received(line.text);
+      } else if (line.kind == LogLine::Kind::Sent && report_.own) {
+        compare(line);
+      } else if (line.kind == LogLine::Kind::Truth && options_.truthObserver) {
+        options_.truthObserver(line.text);
+      }
+    }
+    finish();
+    return std::move(report_);
+  }
+
+ private:
+  void received(std::string_view text) {
+    const double start = processorTime();
+    session_.receive(text);
+    // In foreign logs every message gets its answer. In our own the recorded answers say which ones did.
+    if (!report_.own) (void)session_.answer();
+    cycles_.push_back(processorTime() - start);
+
+    const protocol::Percept& percept = session_.percept();
+    protocol::writePercept(percept, written_);
+    if (written_ != text) ++report_.roundtripDifferences;
+    count(percept);
+    if (percept.vision) compareWithTruth(*percept.vision);
+    if (options_.observer) options_.observer(session_);
+  }
+
+  void count(const protocol::Percept& percept) {
+    for (const protocol::PerceptEntry& entry : percept.order) {
+      ++kindCounts_[static_cast<std::size_t>(entry.kind)];
+    }
+    if (!percept.vision) return;
+    landmarks_ += static_cast<long>(percept.vision->landmarks.size());
+    balls_ += percept.vision->ball ? 1 : 0;
+    players_ += static_cast<long>(percept.vision->players.size());
+    lines_ += static_cast<long>(percept.vision->lines.size());
+  }
+
+  void compareWithTruth(const protocol::Vision& vision) {
+    const world::WorldState& world = session_.agent().world();
+    if (vision.truePosition) {
+      positionErrors_.push_back((world.self.X_FC.translation() - *vision.truePosition).head<2>().norm());
+    }
+    if (vision.trueHeading) {
+      const Vector3 forward = world.self.X_FC.linear().col(0);
+      headingErrors_.push_back(
+          std::abs(angleDifference(std::atan2(forward.y(), forward.x()), *vision.trueHeading)));
+    }
+    if (vision.trueBallPosition && world.ball.known) {
+      ballErrors_.push_back((world.ball.p_FB - *vision.trueBallPosition).head<2>().norm());
+    }
+  }
+
+  void compare(const LogLine& line) {
+    const bool beforeFirstMessage = session_.counts().messages == 0;
+    // Before the first message comes the greeting, and a lone (syn) for a server that hangs: the transport's
+    // clock decided on that, not the agent.
+    if (beforeFirstMessage && line.text == "(syn)") return;
+    const double start = processorTime();
+    const std::string_view answer = beforeFirstMessage ? session_.begin() : session_.answer();
+    if (!beforeFirstMessage) cycles_.back() += processorTime() - start;
+    if (answer == line.text) return;
+    ++report_.effectorDifferences;
+    if (report_.firstDifference) return;
+    report_.firstDifference =
+        EffectorDifference{line.number, session_.percept().time, std::string(line.text), std::string(answer)};
+  }
+
+  void finish() {
+    report_.problem = reader_.problem();
+    report_.counts = session_.counts();
+    for (std::size_t i = 0; i < kindCounts_.size(); ++i) {
+      report_.perceptors[std::string(perceptorName(static_cast<PerceptKind>(i)))] = kindCounts_[i];
+    }
+    report_.perceptors["See: landmarks"] = landmarks_;
+    report_.perceptors["See: ball"] = balls_;
+    report_.perceptors["See: players"] = players_;
+    report_.perceptors["See: lines"] = lines_;
+    if (!cycles_.empty()) {
+      std::sort(cycles_.begin(), cycles_.end());
+      report_.cycleMedian = cycles_[cycles_.size() / 2];
+      report_.cycleP999 = cycles_[(cycles_.size() - 1) * 999 / 1000];
+    }
+    report_.positionError = quantiles(std::move(positionErrors_));
+    report_.headingError = quantiles(std::move(headingErrors_));
+    report_.ballError = quantiles(std::move(ballErrors_));
+  }
+
+  const ReplayOptions& options_;
+  protocol::LogReader reader_;
+  agent::Session session_;
+  ReplayReport report_;
+  std::string written_;
+  std::array<long, 8> kindCounts_{};
+  long landmarks_ = 0;
+  long balls_ = 0;
+  long players_ = 0;
+  long lines_ = 0;
+  std::vector<double> cycles_;
+  std::vector<double> positionErrors_;
+  std::vector<double> headingErrors_;
+  std::vector<double> ballErrors_;
+};
+
+nlohmann::ordered_json toJson(const std::optional<Quantiles>& error, double scale) {
+  if (!error) return nullptr;
+  return {{"count", error->count}, {"median", error->median * scale}, {"p95", error->p95 * scale}};
+}
+
+agent::AgentConfig recordedAgent(const std::string& path, const ReplayOptions& options) {
+  protocol::LogReader reader(path);
+  LogLine line;
+  if (reader.header()) {
+    agent::AgentConfig config = agent::agentFromLog(*reader.header(), options.dataFolder);
+    while (reader.next(line) && line.kind == LogLine::Kind::Comment) {
+      if (const auto start = agent::startFromComment(line.text)) config.startPose = start;
+    }
+    return config;
+  }
+  Identity identity;
+  for (int messages = 0; messages < kMessagesToLookAt && reader.next(line);) {
+    if (line.kind == LogLine::Kind::Received) ++messages;
+    identity.look(line);
+  }
+  agent::AgentChoice choice;
+  choice.unum = options.unum.value_or(identity.unum.value_or(0));
+  choice.team = options.team.value_or(identity.team.value_or("Nonet"));
+  choice.robotType = options.robotType.value_or(identity.robotType.value_or(0));
+  choice.parameterFiles = options.parameterFiles;
+  return agent::makeAgentConfig(choice, options.dataFolder);
+}
+
+}  // namespace
+
+agent::AgentConfig agentOfLog(const std::string& path, const ReplayOptions& options) {
+  agent::AgentConfig config = recordedAgent(path, options);
+  for (const auto& [key, value] : options.parameters) config::setParameter(config.parameters, key, value);
+  return config;
+}
+
+ReplayReport replay(const std::string& path, const ReplayOptions& options) {
+  return Replay(path, options, agentOfLog(path, options)).run();
+}
+
+nlohmann::ordered_json ReplayReport::toJson() const {
+  nlohmann::ordered_json json = {
+      {"file", file},
+      {"messages", counts.messages},
+      {"unknown", counts.unknownTokens},
+      {"roundtrip_differences", roundtripDifferences},
+      {"lost_cycles", counts.lostCycles},
+      {"effector_differences", nullptr},
+      {"cycle_us", {{"median", cycleMedian}, {"p999", cycleP999}}},
+      {"own", own},
+      {"passed_over", counts.passedOver},
+      {"problem", problem},
+      {"perceptors", perceptors},
+      {"position_error_m", lab::toJson(positionError, 1.0)},
+      {"heading_error_deg", lab::toJson(headingError, toDegrees(1.0))},
+      {"ball_error_m", lab::toJson(ballError, 1.0)},
+  };
+  if (own) json["effector_differences"] = effectorDifferences;
+  if (firstDifference) {
+    json["first_difference"] = {{"line", firstDifference->line},
+                                {"time", firstDifference->time},
+                                {"recorded", firstDifference->recorded},
+                                {"replayed", firstDifference->replayed}};
+  }
+  return json;
+}
+
+std::string ReplayReport::toText() const {
+  std::string text = fmt::format(
+      "{}: {} messages, {} unknown tokens, {} round-trip differences, {} lost cycles, {} passed over\n", file,
+      counts.messages, counts.unknownTokens, roundtripDifferences, counts.lostCycles, counts.passedOver);
+  text += fmt::format("  cycle: median {:.1f} us, 99.9th percentile {:.1f} us\n", cycleMedian, cycleP999);
+  text += "  perceptors:";
+  for (const auto& [name, number] : perceptors) text += fmt::format(" {} {},", name, number);
+  text.back() = '\n';
+  if (own)
+    text += fmt::format("  effectors: {} answers differ from the recorded ones\n", effectorDifferences);
+  if (firstDifference) {
+    text += fmt::format(
+        "  first difference in line {}, server time {:.2f}\n    recorded {}\n    replayed {}\n",
+        firstDifference->line, firstDifference->time, firstDifference->recorded, firstDifference->replayed);
+  }
+  const auto error = [&](const char* name, const std::optional<Quantiles>& value, double scale,
+                         const char* unit) {
+    if (!value) return;
+    text += fmt::format("  {} error: median {:.3f} {}, 95th percentile {:.3f} {} ({} frames)\n", name,
+                        value->median * scale, unit, value->p95 * scale, unit, value->count);
+  };
+  error("position", positionError, 1.0, "m");
+  error("heading", headingError, toDegrees(1.0), "deg");
+  error("ball", ballError, 1.0, "m");
+  if (!problem.empty()) text += "  " + problem + "\n";
+  return text;
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,211 @@
+#include "nonet/lab/reports/walk_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "lab/parallel.h"
+
+namespace nonet::lab {
+
+namespace {
+
+using motion::MotionRequest;
+
+constexpr double kFast = 10.0;        // m/s: more than any set allows, so that the set decides
+constexpr double kFastTurn = 20.0;    // rad/s
+constexpr double kAccelerate = 3.0;   // s, from the stand
+constexpr double kSteady = 4.0;       // s, measured afterwards
+constexpr double kHeadingGain = 2.0;  // 1/s, keeps the robot's heading while it walks in a direction
+constexpr double kFarTarget = 40.0;   // m
+
+struct Walk {
+  double fromStand = 0.0;
+  double steady = 0.0;
+  double odometryError = 0.0;
+  bool fell = false;
+};
+
+// A pose as a localization would tell it: new noise with every vision message.
+class NoisyPose {
+ public:
+  NoisyPose(const WalkReportSettings& settings, Random random) : settings_(&settings), random_(random) {}
+  Pose2 of(const TrialRobot& trial) {
+    if (cycle_++ % 3 == 0) {
+      noise_ =
+          Pose2(random_.normal(0.0, settings_->positionNoise), random_.normal(0.0, settings_->positionNoise),
+                random_.normal(0.0, settings_->headingNoise));
+    }
+    const Pose2 pose = trial.pose();
+    return {pose.translation + noise_.translation, wrapAngle(pose.rotation + noise_.rotation)};
+  }
+
+ private:
+  const WalkReportSettings* settings_;
+  Random random_;
+  Pose2 noise_;
+  int cycle_ = 0;
+};
+
+// Stands somewhere, for a random while, so that trials differ in the phase of vision and in the last digits.
+void begin(TrialRobot& trial, Random& random) {
+  trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
+  trial.run(MotionRequest{}, random.uniform(0.02, 0.4));
+}
+
+Walk walkInDirection(TrialRobot& trial, const WalkReportSettings& settings, double direction,
+                     std::uint64_t seed) {
+  Random random(seed);
+  begin(trial, random);
+  NoisyPose noisy(settings, random.fork(1));
+  const Pose2 start = trial.pose();
+  const Vector2 along(std::cos(direction), std::sin(direction));
+  MotionRequest request;
+  request.kind = MotionRequest::Kind::WalkVelocity;
+  Walk walk;
+  double before = 0.0;
+  const int cycles = static_cast<int>((kAccelerate + kSteady) / kCycleTime);
+  for (int i = 0; i < cycles; ++i) {
+    const double error = wrapAngle(start.rotation - noisy.of(trial).rotation);
+    request.velocity = Pose2(kFast * along, kHeadingGain * error);
+    trial.step(request);
+    const double distance = (start.inverse() * trial.pose()).translation.dot(along);
+    if (i + 1 == static_cast<int>(kAccelerate / kCycleTime)) {
+      before = distance;
+      walk.fromStand = distance / kAccelerate;
+    }
+    if (trial.down()) {
+      walk.fell = true;
+      break;
+    }
+    walk.steady = (distance - before) / kSteady;
+  }
+  return walk;
+}
+
+Walk walkTenSeconds(TrialRobot& trial, const WalkReportSettings& settings, std::uint64_t seed) {
+  Random random(seed);
+  begin(trial, random);
+  NoisyPose noisy(settings, random.fork(1));
+  const Pose2 start = trial.pose();
+  const Pose2 odometryStart = trial.belief().body.odometry;
+  const Vector2 target = start * Vector2(kFarTarget, 0.0);
+  MotionRequest request;
+  request.kind = MotionRequest::Kind::WalkTo;
+  request.stopAtTarget = false;
+  Walk walk;
+  for (int i = 0; i < 500; ++i) {
+    request.target = Pose2(noisy.of(trial).inverse() * target, 0.0);
+    trial.step(request);
+    if (trial.down()) {
+      walk.fell = true;
+      break;
+    }
+  }
+  const Pose2 walked = start.inverse() * trial.pose();
+  const Pose2 believed = odometryStart.inverse() * trial.belief().body.odometry;
+  walk.steady = walked.translation.x() / 10.0;
+  walk.odometryError =
+      (walked.translation - believed.translation).norm() / std::max(walked.translation.norm(), 1e-6);
+  return walk;
+}
+
+Walk turnOnTheSpot(TrialRobot& trial, double sense, std::uint64_t seed) {
+  Random random(seed);
+  begin(trial, random);
+  MotionRequest request;
+  request.kind = MotionRequest::Kind::WalkVelocity;
+  request.velocity = Pose2(0.0, 0.0, sense * kFastTurn);
+  Walk walk;
+  double turned = 0.0;
+  double last = trial.pose().rotation;
+  const int accelerate = static_cast<int>(1.0 / kCycleTime);
+  const int cycles = accelerate + static_cast<int>(kSteady / kCycleTime);
+  for (int i = 0; i < cycles; ++i) {
+    trial.step(request);
+    const double now = trial.pose().rotation;
+    if (i >= accelerate) turned += wrapAngle(now - last);
+    last = now;
+    if (trial.down()) {
+      walk.fell = true;
+      break;
+    }
+  }
+  walk.steady = sense * turned / kSteady;
+  return walk;
+}
+
+}  // namespace
+
+Estimate estimate(const std::vector<double>& samples) {
+  Estimate result;
+  if (samples.empty()) return result;
+  const auto n = static_cast<double>(samples.size());
+  for (const double sample : samples) result.mean += sample / n;
+  if (samples.size() < 2) return result;
+  double variance = 0.0;
+  for (const double sample : samples) variance += (sample - result.mean) * (sample - result.mean) / (n - 1.0);
+  // Quantile 0.975 of Student's t by its expansion about the normal one [Abramowitz 1964, 26.7.5].
+  const double z = 1.959964;
+  const double f = n - 1.0;
+  const double t = z + (z * z * z + z) / (4.0 * f) +
+                   (5.0 * std::pow(z, 5) + 16.0 * std::pow(z, 3) + 3.0 * z) / (96.0 * f * f);
+  result.ci95 = t * std::sqrt(variance / n);
+  return result;
+}
+
+WalkReport measureWalk(const WalkReportSettings& settings) {
+  // One job per walk; measures in a fixed order: directions, ten seconds, turns.
+  const int trials = settings.trials;
+  const int directions = kWalkDirections * trials;
+  const int count = directions + trials + 2 * trials;
+  std::vector<Walk> walks(static_cast<std::size_t>(count));
+  const Random seeds(settings.seed);
+  std::unique_ptr<TrialRobot> remote;
+  if (settings.server) remote = connectTrialRobot(settings.setup, *settings.server);
+  inParallel(count, remote ? 1 : settings.threads, [&](int i) {
+    const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
+    std::unique_ptr<TrialRobot> own;
+    if (!remote) {
+      TrialSetup setup = settings.setup;
+      setup.seed = seed;
+      own = makeTrialRobot(setup);
+    }
+    TrialRobot& robot = remote ? *remote : *own;
+    Walk& walk = walks[static_cast<std::size_t>(i)];
+    if (i < directions) {
+      walk = walkInDirection(robot, settings, 2.0 * kPi * (i / trials) / kWalkDirections, seed);
+    } else if (i < directions + trials) {
+      walk = walkTenSeconds(robot, settings, seed);
+    } else {
+      walk = turnOnTheSpot(robot, (i - directions) % 2 == 0 ? 1.0 : -1.0, seed);
+    }
+  });
+
+  WalkReport report;
+  report.trials = count;
+  const auto collect = [&](int begin, int end, double Walk::*what) {
+    std::vector<double> samples;
+    for (int i = begin; i < end; ++i) samples.push_back(walks[static_cast<std::size_t>(i)].*what);
+    return estimate(samples);
+  };
+  for (int d = 0; d < kWalkDirections; ++d) {
+    const auto at = static_cast<std::size_t>(d);
+    report.steady[at] = collect(d * trials, (d + 1) * trials, &Walk::steady);
+    report.fromStand[at] = collect(d * trials, (d + 1) * trials, &Walk::fromStand);
+    for (int i = d * trials; i < (d + 1) * trials; ++i) {
+      report.fallsByDirection[at] += walks[static_cast<std::size_t>(i)].fell ? 1 : 0;
+    }
+  }
+  report.forwardTenSeconds = collect(directions, directions + trials, &Walk::steady);
+  report.odometryError = collect(directions, directions + trials, &Walk::odometryError);
+  report.turn = collect(directions + trials, count, &Walk::steady);
+  for (const Walk& walk : walks) report.falls += walk.fell ? 1 : 0;
+  if (settings.courses > 0) {
+    report.course = measureCourses(settings.setup, settings.seed, settings.courses, settings.threads);
+  }
+  return report;
+}
+
+}  // namespace nonet::lab

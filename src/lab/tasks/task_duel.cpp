@@ -1,0 +1,34 @@
+// duel: the course of goToTarget among others who bump into the robot, and staying upright before all. It
+// teaches the set for the neighbourhood of others.
+#include "nonet/lab/trial/target_course.h"
+
+#include "lab/tasks/tasks.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr double kFallCost = 20.0;  // rising takes two seconds, in which others have the ball
+constexpr double kPush = 0.4;       // m/s
+
+class DuelTask final : public CourseTask {
+ public:
+  using CourseTask::CourseTask;
+
+  // The search begins at the walk set, unless a positioning set was learned before.
+  void prepare(agent::AgentParameters& parameters) const override {
+    parameters.motion.selection.usePositioning = true;
+    startAt(parameters.motion.sets.goToTarget, parameters.motion.sets.positioning);
+  }
+};
+
+}  // namespace
+
+const Task& duelTask() {
+  static const DuelTask task(
+      "duel", "the course of goToTarget with pushes as in a crowd; a fall costs 20 instead of 5",
+      "motion.positioning.", {.set = motion::WalkSet::Positioning, .fallCost = kFallCost, .push = kPush});
+  return task;
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,65 @@
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "nonet/config/parameters.h"
+
+#include "lab/tasks/tasks.h"
+
+namespace nonet::lab {
+
+std::span<const Task* const> registeredTasks() {
+  static const std::array<const Task*, 12> tasks{&goToTargetTask(), &surefootedTask(), &standardCourseTask(),
+                                                 &sidestepTask(),   &duelTask(),       &sprintTask(),
+                                                 &getupTask(),      &getupFrontTask(), &getupBackTask(),
+                                                 &kickTask(),       &diveTask(),       &quadraticTask()};
+  return tasks;
+}
+
+const Task& findTask(std::string_view name) {
+  std::string known;
+  for (const Task* task : registeredTasks()) {
+    if (task->name() == name) return *task;
+    if (!task->hidden()) known += fmt::format("{}{}", known.empty() ? "" : ", ", task->name());
+  }
+  throw std::runtime_error(fmt::format("unknown task '{}': use one of {}", name, known));
+}
+
+TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) {
+  TrialSetup setup;
+  setup.robotType = settings.robotType;
+  setup.motion = parameters.motion;
+  setup.world = parameters.world;
+  setup.skillFolder = settings.dataFolder + "/skills";
+  setup.seed = seed;
+  setup.physics.solver =
+      settings.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
+  return setup;
+}
+
+void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set) {
+  motion::WalkParameters untouched;
+  if (config::toToml(set) == config::toToml(untouched)) set = walk;
+}
+
+CourseTask::CourseTask(std::string_view name, std::string_view description, std::string_view key,
+                       const CourseOptions& options)
+    : name_(name), description_(description), key_(key), options_(options) {
+  options_.mostFalls = kMostFalls;
+}
+
+TaskResult CourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                                const TaskSettings& settings) const {
+  const CourseResult course = runCourse(trialSetup(parameters, seed, settings), seed, options_);
+  return {.fitness = course.reward,
+          .measures = {{"falls", course.falls},
+                       {"targets", course.targets},
+                       {"reached", course.reached},
+                       {"distance_m", course.distance},
+                       {"time_s", course.time},
+                       {"stopDrift_m", course.stopDrift}}};
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,75 @@
+// The list of tasks and what they share.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nonet/lab/tasks/task.h"
+#include "nonet/lab/trial/robot_trial.h"
+#include "nonet/lab/trial/target_course.h"
+
+namespace nonet::lab {
+
+const Task& goToTargetTask();
+const Task& surefootedTask();
+const Task& standardCourseTask();
+const Task& sidestepTask();
+const Task& duelTask();
+const Task& sprintTask();
+const Task& getupTask();
+const Task& getupFrontTask();
+const Task& getupBackTask();
+const Task& kickTask();
+const Task& diveTask();
+const Task& quadraticTask();
+
+TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings);
+
+/// Where the search for a walk set begins: at `walk`, unless the set was learned before.
+void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set);
+
+// Who falls so often on a course learns nothing from the rest, and falls take long to simulate.
+constexpr int kMostFalls = 4;
+
+constexpr double kLightPush = 0.15;  // m/s, as one's own missteps and the ball give them
+
+/// The obstacle course as a task: one way to walk it, and the set that is learned on it.
+class CourseTask : public Task {
+ public:
+  /// `key`: the prefix of the parameters to move. The texts must outlive the task.
+  CourseTask(std::string_view name, std::string_view description, std::string_view key,
+             const CourseOptions& options);
+
+  std::string_view name() const override { return name_; }
+  std::string_view description() const override { return description_; }
+  std::vector<std::string> searchedKeys() const override { return {std::string(key_)}; }
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override;
+
+ protected:
+  const CourseOptions& options() const { return options_; }
+
+ private:
+  std::string_view name_;
+  std::string_view description_;
+  std::string_view key_;
+  CourseOptions options_;
+};
+
+/// The time for the course with the sets that the agent itself would choose. The course is walked three
+/// times: by the clock, every target walked to until it is reached; with goToTarget's time limits, so that
+/// commands change before they are carried out; and with sets that change at random. Light pushes keep the
+/// learned set surefooted; a fall costs 20 s, near falls cost too.
+class TimedCourseTask : public CourseTask {
+ public:
+  TimedCourseTask(std::string_view name, std::string_view description, std::string_view key,
+                  CourseOptions::Items items)
+      : CourseTask(name, description, key, {.items = items, .push = kLightPush}) {}
+
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override;
+};
+
+}  // namespace nonet::lab

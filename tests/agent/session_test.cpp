@@ -1,0 +1,141 @@
+#include "nonet/agent/session.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nonet/agent/agent_setup.h"
+
+namespace nonet::agent {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+SessionOptions options(bool sync = true) {
+  AgentChoice choice;
+  choice.unum = 5;
+  choice.team = "Test";
+  choice.robotType = 1;
+  return {makeAgentConfig(choice, NONET_SOURCE_DIR), sync};
+}
+
+std::string message(int cycle, const std::string& status = "") {
+  char clock[32];
+  std::snprintf(clock, sizeof clock, "%.2f", 3.0 + 0.02 * cycle);
+  return "(time (now " + std::string(clock) + "))(GS " + status +
+         "(sl 0) (sr 0) (t 0.00) (pm BeforeKickOff))" +
+         "(GYR (n torso) (rt 0.00 0.00 0.00))(ACC (n torso) (a 0.00 0.00 9.81))(HJ (n hj1) (ax 0.00))";
+}
+const std::string kAccepted = "(unum 5) (team right) ";
+
+TEST(Session, FollowsTheHandshake) {
+  Session session(options());
+  EXPECT_EQ(session.begin(), "(scene rsg/agent/nao/nao_hetero.rsg 1)(syn)");
+  EXPECT_EQ(session.stage(), Session::Stage::Connecting);
+  EXPECT_EQ(session.answer(), "") << "no message, no answer";
+  session.receive(message(0));
+  EXPECT_EQ(session.stage(), Session::Stage::Introducing);
+  EXPECT_THAT(std::string(session.answer()), StartsWith("(init (unum 5)(teamname Test))"));
+  EXPECT_EQ(session.answer(), "") << "one answer per message";
+  session.receive(message(1));
+  session.answer();
+  session.receive(message(2, kAccepted));
+  EXPECT_EQ(session.stage(), Session::Stage::Playing);
+  EXPECT_EQ(session.counts().messages, 3);
+  EXPECT_EQ(session.counts().passedOver, 0);
+  EXPECT_EQ(session.counts().lostCycles, 0);
+}
+
+TEST(Session, LeavesSynAwayWhenTold) {
+  Session session(options(false));
+  EXPECT_THAT(std::string(session.begin()), Not(HasSubstr("syn")));
+  session.receive(message(0));
+  EXPECT_THAT(std::string(session.answer()), Not(HasSubstr("syn")));
+}
+
+TEST(Session, CountsGapsInTheServersTime) {
+  Session session(options());
+  session.begin();
+  for (const int cycle : {0, 1, 2, 5, 6, 10}) session.receive(message(cycle));
+  EXPECT_EQ(session.counts().lostCycles, 2 + 3);
+}
+
+// The server's clock is a 32-bit sum of steps, printed with two decimals.
+TEST(Session, DoesNotTakeRoundingForAGap) {
+  for (const bool gap : {false, true}) {
+    Session session(options());
+    session.begin();
+    float time = 78.70F;
+    for (int cycle = 0; cycle < 3000; ++cycle) {
+      time += 0.02F;
+      if (gap && cycle % 100 == 99) continue;
+      char text[64];
+      std::snprintf(text, sizeof text, "(time (now %.2f))", static_cast<double>(time) + 0.004999);
+      session.receive(text);
+      session.answer();
+    }
+    EXPECT_EQ(session.counts().lostCycles, gap ? 29 : 0);
+  }
+}
+
+TEST(Session, KeepsInitWhenItsMessageIsPassedOver) {
+  Session session(options());
+  session.begin();
+  session.receive(message(0));
+  session.receive(message(1));
+  const std::string answer(session.answer());
+  EXPECT_THAT(answer, StartsWith("(init "));
+  EXPECT_THAT(answer, EndsWith("(syn)"));
+  EXPECT_EQ(session.counts().passedOver, 1);
+  EXPECT_EQ(session.counts().answers, 1);
+}
+
+TEST(Session, KeepsTheBeamOfAPassedOverMessage) {
+  // Two equal agents; one answers the message in which it wants to be beamed, the other one message later.
+  Session prompt(options());
+  Session late(options());
+  std::string prompted;
+  int beamCycle = -1;
+  for (int cycle = 0; cycle < 20 && beamCycle < 0; ++cycle) {
+    prompt.receive(message(cycle, cycle == 2 ? kAccepted : ""));
+    prompted = prompt.answer();
+    if (prompted.find("(beam ") != std::string::npos) beamCycle = cycle;
+  }
+  ASSERT_GE(beamCycle, 0) << "the agent takes its place before kick-off";
+  for (int cycle = 0; cycle < beamCycle; ++cycle) {
+    late.receive(message(cycle, cycle == 2 ? kAccepted : ""));
+    late.answer();
+  }
+  late.receive(message(beamCycle, beamCycle == 2 ? kAccepted : ""));
+  late.receive(message(beamCycle + 1));
+  EXPECT_THAT(std::string(late.answer()), HasSubstr("(beam "));
+}
+
+TEST(Session, TellsARefusal) {
+  Session session(options());
+  session.begin();
+  for (int cycle = 0; cycle < Session::kRefusalPatience; ++cycle) {
+    session.receive(message(cycle));
+    session.answer();
+    ASSERT_EQ(session.stage(), Session::Stage::Introducing);
+  }
+  session.receive(message(Session::kRefusalPatience));
+  EXPECT_EQ(session.stage(), Session::Stage::Refused);
+}
+
+TEST(Session, SurvivesAnything) {
+  Session session(options());
+  session.begin();
+  for (const std::string& text :
+       {std::string(")))((("), std::string("\0\1\2", 3), std::string("(time (now nan))"),
+        std::string("(See (B (pol 1 2"), std::string(5000, '(')}) {
+    session.receive(text);
+    EXPECT_THAT(std::string(session.answer()), EndsWith("(syn)"));
+  }
+  EXPECT_GT(session.counts().unknownTokens, 0);
+}
+
+}  // namespace
+}  // namespace nonet::agent

@@ -1,0 +1,221 @@
+// The run folder: the same bytes whatever interrupts it, values that can be measured again.
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "nonet/config/parameters.h"
+#include "nonet/lab/optimize/optimization_run.h"
+#include "nonet/lab/optimize/optimize_report.h"
+#include "nonet/lab/optimize/solver_comparison.h"
+#include "nonet/math/random.h"
+
+namespace nonet::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunFolder : public testing::Test {
+ protected:
+  RunFolder() {
+    root_ = (fs::temp_directory_path() / "nonet-optimization-XXXXXX").string();
+    if (mkdtemp(root_.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  }
+  ~RunFolder() override { fs::remove_all(root_); }
+
+  static OptimizationConfig config() {
+    OptimizationConfig config;
+    config.task = "quadratic";
+    config.seed = 4;
+    config.generations = 120;
+    config.trials = 3;
+    config.racing = true;
+    config.validationTrials = 6;
+    config.restarts = RestartScheme::Bipop;
+    config.parameters = config::toToml(agent::AgentParameters{});
+    config.date = "2026-01-01";
+    config.version = "test";
+    return config;
+  }
+
+  static void finish(OptimizationRun& run, int threads) {
+    const auto evaluator = makeThreadEvaluator(makeObjective(run.config(), ""), threads);
+    GenerationReport report;
+    while (run.step(*evaluator, report)) {
+    }
+  }
+
+  static std::string bytes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  static void expectSameRun(const std::string& a, const std::string& b) {
+    for (const char* name : {"/config.json", "/generations.jsonl", "/checkpoint.json", "/best.toml"}) {
+      EXPECT_FALSE(bytes(a + name).empty()) << name;
+      EXPECT_EQ(bytes(a + name), bytes(b + name)) << name;
+    }
+  }
+
+  std::string root_;
+};
+
+TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
+  const std::string straight = root_ + "/straight";
+  auto whole = OptimizationRun::create(straight, config(), "");
+  const auto begin = std::chrono::steady_clock::now();
+  finish(whole, 1);
+  const auto micros =
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin).count();
+
+  const std::string killed = root_ + "/killed";
+  { OptimizationRun::create(killed, config(), ""); }
+  Random random(9);
+  int kills = 0;
+  for (bool finished = false; !finished;) {
+    ASSERT_LT(kills, 400) << "makes no progress";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      auto run = OptimizationRun::resume(killed, "", std::nullopt);
+      finish(run, 1);
+      _exit(0);
+    }
+    usleep(static_cast<useconds_t>(random.uniform(0.02, 0.3) * static_cast<double>(micros)));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    finished = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    kills += finished ? 0 : 1;
+  }
+  EXPECT_GE(kills, 2);
+  expectSameRun(straight, killed);
+}
+
+TEST_F(RunFolder, DoesNotDependOnTheThreadsAndCanBeExtended) {
+  auto one = OptimizationRun::create(root_ + "/one", config(), "");
+  finish(one, 1);
+  OptimizationConfig shorter = config();
+  shorter.generations = 33;
+  {
+    auto three = OptimizationRun::create(root_ + "/three", shorter, "");
+    finish(three, 3);
+  }
+  auto longer = OptimizationRun::resume(root_ + "/three", "", config().generations);
+  finish(longer, 2);
+  expectSameRun(root_ + "/one", root_ + "/three");
+}
+
+// A torn last line and a best.toml from after the checkpoint are what a kill between two writes leaves.
+TEST_F(RunFolder, ForgetsWhatWasWrittenAfterTheCheckpoint) {
+  auto whole = OptimizationRun::create(root_ + "/whole", config(), "");
+  finish(whole, 1);
+  OptimizationConfig half = config();
+  half.generations = 60;
+  {
+    auto run = OptimizationRun::create(root_ + "/torn", half, "");
+    finish(run, 1);
+  }
+  std::ofstream(root_ + "/torn/generations.jsonl", std::ios::app) << "{\"generation\":61,\"best";
+  std::ofstream(root_ + "/torn/best.toml", std::ios::app) << "junk";
+  auto resumed = OptimizationRun::resume(root_ + "/torn", "", config().generations);
+  finish(resumed, 1);
+  expectSameRun(root_ + "/whole", root_ + "/torn");
+}
+
+TEST_F(RunFolder, ImprovesAndItsProvenanceRepeats) {
+  auto run = OptimizationRun::create(root_ + "/run", config(), "");
+  finish(run, 2);
+  const std::string best = root_ + "/run/best.toml";
+  const auto repetitions = repeatLearned(best, "", 2);
+  ASSERT_EQ(repetitions.size(), 1U);
+  EXPECT_DOUBLE_EQ(repetitions[0].recorded.fitness, repetitions[0].repeated.fitness);
+  EXPECT_GE(repetitions[0].recorded.seeds.size(), 6U);
+
+  // Better than the start on seeds that neither has seen.
+  agent::AgentParameters learned;
+  config::overlayFile(learned, best);
+  const auto seeds = trialSeeds(77, 0, 0, 20);
+  const Task& task = findTask("quadratic");
+  EXPECT_GT(measure(task, learned, seeds, {}, 1).fitness,
+            measure(task, agent::AgentParameters{}, seeds, {}, 1).fitness + 0.01);
+
+  // The first line of the log can be measured again from what it holds.
+  std::ifstream file(root_ + "/run/generations.jsonl");
+  std::string text;
+  std::getline(file, text);
+  const auto line = nlohmann::json::parse(text);
+  const auto point = line["candidates"][2]["point"].get<std::vector<double>>();
+  const Eigen::VectorXd vector =
+      Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
+  EXPECT_EQ(makeObjective(run.config(), "")({vector, line["seeds"][0].get<std::uint64_t>()}),
+            line["candidates"][2]["values"][0].get<double>());
+}
+
+TEST_F(RunFolder, RefusesToOverwriteARunAndToResumeNone) {
+  auto run = OptimizationRun::create(root_ + "/run", config(), "");
+  EXPECT_THROW(OptimizationRun::create(root_ + "/run", config(), ""), std::runtime_error);
+  EXPECT_THROW(OptimizationRun::resume(root_ + "/other", "", std::nullopt), std::runtime_error);
+}
+
+// When mpirun is killed its ranks may live on for a while.
+TEST_F(RunFolder, IsHeldByOneProcess) {
+  auto run = OptimizationRun::create(root_ + "/run", config(), "");
+  EXPECT_THROW(OptimizationRun::resume(root_ + "/run", "", std::nullopt), std::runtime_error);
+  { const OptimizationRun last = std::move(run); }
+  EXPECT_NO_THROW(OptimizationRun::resume(root_ + "/run", "", std::nullopt));
+}
+
+TEST_F(RunFolder, WritesAReportWithACurvePerParameter) {
+  OptimizationConfig shortRun = config();
+  shortRun.generations = 12;
+  auto run = OptimizationRun::create(root_ + "/run", shortRun, "");
+  finish(run, 1);
+  const std::string html = bytes(writeOptimizationReport(root_ + "/run", ""));
+  for (const std::string& key : run.space().keys()) EXPECT_NE(html.find(key), std::string::npos) << key;
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+}
+
+TEST(Configuration, SurvivesItsFile) {
+  OptimizationConfig config;
+  config.task = "quadratic";
+  config.restarts = RestartScheme::Ipop;
+  config.keys = {"motion.walk.z"};
+  Provenance origin;
+  origin.task = "sprint";
+  origin.fitness = 0.1;
+  origin.seeds = {1, 2, 4294967295U};
+  config.inherited.push_back(origin);
+  const auto text = config.toJson().dump();
+  EXPECT_EQ(OptimizationConfig::fromJson(nlohmann::json::parse(text)).toJson().dump(), text);
+}
+
+TEST(TrialSeeds, DifferBetweenGenerationsAndStreams) {
+  std::set<std::uint64_t> all;
+  for (int generation = 0; generation < 50; ++generation) {
+    for (int stream = 0; stream < 2; ++stream) {
+      for (const std::uint64_t seed : trialSeeds(3, generation, stream, 10)) all.insert(seed);
+    }
+  }
+  EXPECT_EQ(all.size(), 1000U);
+  EXPECT_EQ(trialSeeds(3, 7, 1, 10), trialSeeds(3, 7, 1, 10));
+}
+
+// 1 - 6 sum d^2 / (n (n^2 - 1)), where there are no ties.
+TEST(RankCorrelation, IsSpearmans) {
+  EXPECT_DOUBLE_EQ(rankCorrelation({1, 2, 3, 4}, {10, 20, 30, 1000}), 1.0);
+  EXPECT_DOUBLE_EQ(rankCorrelation({1, 2, 3, 4}, {4, 3, 2, 1}), -1.0);
+  EXPECT_DOUBLE_EQ(rankCorrelation({1, 2, 3, 4, 5}, {2, 1, 4, 3, 5}), 1.0 - 6.0 * 4.0 / (5.0 * 24.0));
+  EXPECT_NEAR(rankCorrelation({1, 1, 2}, {5, 6, 7}), 0.8660254037844387, 1e-12);
+}
+
+}  // namespace
+}  // namespace nonet::lab

@@ -1,0 +1,184 @@
+// The obstacle course, and the tasks that score it. The oracle for the score is the count of what happened.
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "nonet/lab/tasks/task.h"
+#include "nonet/lab/trial/target_course.h"
+
+namespace nonet::lab {
+namespace {
+
+agent::AgentParameters initialParameters() {
+  agent::AgentParameters parameters;
+  parameters.motion.skills = motion::declareSkillParameters(std::string(NONET_SOURCE_DIR) + "/skills");
+  return parameters;
+}
+
+/// Whoever walks so falls at once: the feet are swung up to the hips.
+agent::AgentParameters clumsyParameters() {
+  agent::AgentParameters parameters = initialParameters();
+  for (motion::WalkParameters* walk :
+       {&parameters.motion.sets.goToTarget, &parameters.motion.sets.positioning}) {
+    walk->zStep = 0.25;
+    walk->maxStepX = 0.25;
+  }
+  return parameters;
+}
+
+TaskSettings quickSettings() {
+  return {.robotType = 0, .quickSolver = true, .dataFolder = NONET_SOURCE_DIR};
+}
+
+TrialSetup setupOf(const agent::AgentParameters& parameters, std::uint64_t seed) {
+  TrialSetup setup;
+  setup.motion = parameters.motion;
+  setup.skillFolder = std::string(NONET_SOURCE_DIR) + "/skills";
+  setup.seed = seed;
+  setup.physics.solver = sim::WorldSettings::Solver::Quick;
+  return setup;
+}
+
+double measure(const TaskResult& result, std::string_view name) {
+  for (const auto& [key, value] : result.measures) {
+    if (key == name) return value;
+  }
+  ADD_FAILURE() << "no measure " << name;
+  return 0.0;
+}
+
+TEST(Course, HasEveryItemOnceInAnOrderOfItsSeed) {
+  std::set<std::string> orders;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::set<std::string> names;
+    std::string order;
+    double time = 0.0;
+    for (const CourseItem& item : makeCourse(seed)) {
+      EXPECT_TRUE(names.insert(item.name).second) << item.name;
+      order += item.name;
+      for (const CourseLeg& leg : item.legs) time += leg.time;
+    }
+    EXPECT_EQ(names.size(), 12U);
+    EXPECT_GT(time, 60.0);
+    EXPECT_LT(time, 130.0);
+    orders.insert(order);
+  }
+  EXPECT_GT(orders.size(), 18U);
+}
+
+TEST(Course, TheSameSeedGivesTheSameWalk) {
+  const TrialSetup setup = setupOf(initialParameters(), 3);
+  const CourseResult first = runCourse(setup, 3, {});
+  const CourseResult second = runCourse(setup, 3, {});
+  EXPECT_EQ(first.reward, second.reward);
+  EXPECT_EQ(first.distance, second.distance);
+  EXPECT_NE(first.reward, runCourse(setup, 4, {}).reward);
+}
+
+// It wanders off by more than half a field: goals, walls and the ball must be nowhere near, or it measures
+// collisions.
+TEST(Course, HasNothingToBumpInto) {
+  TrialSetup small = setupOf(initialParameters(), 3);
+  small.physics.fieldLength = 6.0;
+  small.physics.fieldWidth = 4.0;
+  const CourseResult inside = runCourse(small, 3, {});
+  const CourseResult outside = runCourse(setupOf(initialParameters(), 3), 3, {});
+  EXPECT_EQ(inside.reward, outside.reward);
+  EXPECT_EQ(inside.unsteadiness, outside.unsteadiness);
+}
+
+TEST(Course, ByTheClockEveryTargetIsReached) {
+  const CourseResult result = runCourse(setupOf(initialParameters(), 5), 5, {.untilReached = true});
+  EXPECT_EQ(result.falls, 0);
+  EXPECT_EQ(result.reached, result.targets);
+  const CourseResult limited = runCourse(setupOf(initialParameters(), 5), 5, {});
+  EXPECT_LT(limited.reached, limited.targets) << "the first walk is too slow for the limits";
+  EXPECT_LT(limited.time, result.time);
+}
+
+TEST(Course, AFallCostsWhatItIsSaidToCostAndTheLastOneEndsIt) {
+  const TrialSetup setup = setupOf(clumsyParameters(), 2);
+  CourseOptions options{.mostFalls = 3, .fallCost = 0.0};
+  const CourseResult free = runCourse(setup, 2, options);
+  ASSERT_EQ(free.falls, 3);
+  options.fallCost = 20.0;
+  const CourseResult paid = runCourse(setup, 2, options);
+  EXPECT_EQ(paid.falls, 3);
+  EXPECT_NEAR(paid.reward, free.reward - 3 * 20.0, 1e-9);
+  EXPECT_LT(paid.targets, 20) << "the rest of the course is not walked";
+}
+
+TEST(Course, PushesMakeTheSameWalkFall) {
+  const agent::AgentParameters parameters = initialParameters();
+  int falls = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const CourseResult quiet = runCourse(setupOf(parameters, seed), seed, {});
+    EXPECT_EQ(quiet.falls, 0) << seed;
+    // The integral of (tilt / 0.3)^4: nowhere near a fall, it stays below that of a lean of 0.15 rad.
+    EXPECT_LT(quiet.unsteadiness, quiet.time / 16.0);
+    const CourseResult pushed = runCourse(setupOf(parameters, seed), seed, {.push = 1.5});
+    EXPECT_GT(pushed.unsteadiness, 2.0 * quiet.unsteadiness);
+    falls += pushed.falls;
+  }
+  EXPECT_GT(falls, 3);
+}
+
+TEST(StandardCourse, FitnessIsTimeFallsAndUnsteadiness) {
+  const Task& task = findTask("standardCourse");
+  const TaskResult result = task.evaluate(initialParameters(), 7, quickSettings());
+  const double falls =
+      measure(result, "falls") + measure(result, "falls_limited") + measure(result, "falls_changing");
+  const double unsteadiness = measure(result, "unsteadiness_s");
+  EXPECT_NEAR(result.fitness, -measure(result, "time_s") - 20.0 * falls - unsteadiness, 1e-9);
+  EXPECT_GT(unsteadiness, 0.0);
+  EXPECT_GT(measure(result, "time_s"), 120.0);
+  EXPECT_EQ(result.fitness, task.evaluate(initialParameters(), 7, quickSettings()).fitness);
+}
+
+TEST(StandardCourse, WhoIsGivenUpIsWorseThanTheSlowest) {
+  const Task& task = findTask("standardCourse");
+  const TaskResult result = task.evaluate(clumsyParameters(), 7, quickSettings());
+  EXPECT_EQ(measure(result, "falls"), 4.0);
+  EXPECT_LT(result.fitness, task.evaluate(initialParameters(), 7, quickSettings()).fitness - 50.0);
+}
+
+TEST(Sidestep, WalksTheTargetsWithAHeldHeadingOnly) {
+  std::size_t shifts = 0;
+  for (const CourseItem& item : makeCourse(7)) {
+    for (const CourseLeg& leg : item.legs) shifts += leg.kind == CourseLeg::Kind::Shift ? 1U : 0U;
+  }
+  const CourseResult result = runCourse(setupOf(initialParameters(), 7), 7,
+                                        {.items = CourseOptions::Items::HeldHeading, .untilReached = true});
+  EXPECT_EQ(result.targets, static_cast<int>(shifts));
+  EXPECT_EQ(result.reached, result.targets);
+  EXPECT_EQ(result.stopDrift, 0.0) << "there is no stop among them";
+  const TaskResult held = findTask("sidestep").evaluate(initialParameters(), 7, quickSettings());
+  const TaskResult whole = findTask("standardCourse").evaluate(initialParameters(), 7, quickSettings());
+  EXPECT_LT(measure(held, "time_s"), 0.4 * measure(whole, "time_s"));
+}
+
+TEST(Course, ANoisyTargetIsReachedSoonerWhenItIsAveraged) {
+  agent::AgentParameters averaging = initialParameters();
+  averaging.motion.sets.goToTarget.targetSmoothing = 0.6;
+  double without = 0.0;
+  double with = 0.0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const CourseOptions byTheClock{.untilReached = true};
+    without += runCourse(setupOf(initialParameters(), seed), seed, byTheClock).time;
+    with += runCourse(setupOf(averaging, seed), seed, byTheClock).time;
+  }
+  EXPECT_LT(with / 6.0, without / 6.0 - 1.0) << "s a course, of which one leg of 4.5 s has a noisy target";
+}
+
+TEST(GoToTarget, FitnessIsTheRewardOfTheCourse) {
+  const agent::AgentParameters parameters = initialParameters();
+  const TaskResult result = findTask("goToTarget").evaluate(parameters, 9, quickSettings());
+  const CourseResult course =
+      runCourse(setupOf(parameters, 9), 9, {.set = motion::WalkSet::GoToTarget, .mostFalls = 4});
+  EXPECT_EQ(result.fitness, course.reward);
+  EXPECT_EQ(measure(result, "falls"), course.falls);
+}
+
+}  // namespace
+}  // namespace nonet::lab
