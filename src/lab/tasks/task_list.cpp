@@ -10,10 +10,11 @@
 namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
-  static const std::array<const Task*, 12> tasks{&goToTargetTask(), &surefootedTask(), &standardCourseTask(),
-                                                 &sidestepTask(),   &duelTask(),       &sprintTask(),
-                                                 &getupTask(),      &getupFrontTask(), &getupBackTask(),
-                                                 &kickTask(),       &diveTask(),       &quadraticTask()};
+  static const std::array tasks{
+      &goToTargetTask(), &surefootedTask(), &standardCourseTask(), &sidestepTask(),
+      &duelTask(),       &sprintTask(),     &getupTask(),          &getupFrontTask(),
+      &getupBackTask(),  &kickTask(),       &diveTask(),           &quadraticTask(),
+  };
   return tasks;
 }
 

@@ -1,6 +1,6 @@
 // What can be learned: a task turns agent parameters and a seed into a fitness (higher is better). Tasks run
-// the real agent code on the in-process physics. Adding a task is adding one file and one line in
-// registeredTasks().
+// the real agent code on the in-process physics. A new task is one file, its declaration in tasks.h and its
+// line in task_list.cpp (docs/how-to.md).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace nonet::lab {
 
 struct TaskSettings {
   int robotType = 0;
-  bool quickSolver = false;  // ODE's iterative stepper: faster, not exact
+  bool quickSolver = false;  // the quick stepper: the same equations, faster, differs by rounding
   std::string dataFolder;    // holds params/ and skills/
 };
 
