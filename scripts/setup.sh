@@ -8,6 +8,7 @@ packages=(
   libeigen3-dev libode-dev libceres-dev                  # mathematics and physics
   libasio-dev libcli11-dev libtomlplusplus-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libzstd-dev zlib1g-dev                                 # log files
+  libboost-dev                                           # Student's t distribution
   libopenmpi-dev openmpi-bin libpagmo-dev                # distributed training; CMA-ES to compare ours with
   libgtest-dev libgmock-dev libbenchmark-dev libsexp-dev # tests and benchmarks
   clang clang-format clang-tidy libclang-rt-14-dev       # checks and fuzzing

@@ -1,0 +1,71 @@
+// What a series of paired games says about two teams. A pair is two games from one seed with the sides
+// exchanged; its value is the goal difference of both games together, per ten minutes, seen from team A.
+// Chance that both games share falls out, so pairs are what is counted, not games.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace nonet::lab {
+
+/// Goal difference per ten minutes over all pairs.
+struct PairSummary {
+  int pairs = 0;
+  double mean = 0.0;
+  double standardError = 0.0;  // 0 with fewer than two pairs
+  double low = 0.0;            // 95 % interval of Student's t; equal to `mean` with fewer than two pairs
+  double high = 0.0;
+};
+PairSummary summarizePairs(std::span<const double> values);
+
+/// Two claims about the true mean: `low` and `high`, goals per ten minutes, low < high.
+struct SequentialBounds {
+  double low = 0.0;
+  double high = 0.0;
+};
+/// "D0,D1". Throws std::runtime_error that says what is expected.
+SequentialBounds parseSequentialBounds(std::string_view text);
+
+enum class Verdict : std::uint8_t {
+  Open,  // go on
+  Low,   // the mean is `low` rather than `high`
+  High,
+};
+std::string_view verdictName(Verdict verdict);  // "open", "low", "high"
+
+/// Sequential t-test: after each pair, the ratio of the two claims' likelihoods, each at the spread that fits
+/// it best (a generalised likelihood ratio, since the spread is unknown), is held against Wald's bounds
+/// (Wald 1945, "Sequential tests of statistical hypotheses", section 3). With n values of mean m and sum of
+/// squares S about m:
+///
+///     log ratio = (n - 1) / 2 * log((S + n (m - low)^2) / (S + n (m - high)^2))
+///
+/// Both kinds of error stay near or below 5 % (the tests simulate them). Goals are whole numbers: a few equal
+/// pairs must not pass for pairs without spread, so S begins at the square of `resolution`, the value of one
+/// goal in one pair, and nothing is decided before kFewestPairs.
+class SequentialTest {
+ public:
+  static constexpr int kFewestPairs = 6;
+  static constexpr double kError = 0.05;  // of each kind
+
+  SequentialTest(const SequentialBounds& bounds, double resolution);
+
+  /// One more pair. After a verdict further pairs change nothing.
+  Verdict add(double value);
+  Verdict verdict() const { return verdict_; }
+  double logLikelihoodRatio() const { return ratio_; }
+  /// The log ratio that decides: +bound() for High, -bound() for Low.
+  static double bound();
+
+ private:
+  SequentialBounds bounds_;
+  double squares_;     // about the mean
+  double mean_ = 0.0;  // so far
+  int pairs_ = 0;
+  double ratio_ = 0.0;
+  Verdict verdict_ = Verdict::Open;
+};
+
+}  // namespace nonet::lab

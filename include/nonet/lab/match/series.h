@@ -1,0 +1,110 @@
+// A series of paired games as a folder:
+//
+//   series.json    what is played (series_choice.h)
+//   matches.jsonl  one line per game: score and statistics, nothing that depends on the machine's speed
+//   times.jsonl    one line per game: what does depend on it (wall and processor time)
+//   result.json    wins, goal difference with its interval, verdict; written at the end
+//
+// A game's line is appended, and on the disk, when the game ends; at the end the lines are put in the order
+// of the games. A series that is killed at any point and resumed ends in the same matches.jsonl and
+// result.json as one that was not.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nonet/lab/match/series_choice.h"
+
+namespace nonet::lab {
+
+/// What a game leaves.
+struct GameRecord {
+  SeriesGame game;
+  nlohmann::ordered_json
+      line;  // pair, game, seed, a, score_a, score_b, game_time_s, finished, ... statistics
+  nlohmann::ordered_json times;  // pair, game, wall_time_s, ...
+
+  int scoreA() const { return line.at("score_a").get<int>(); }
+  int scoreB() const { return line.at("score_b").get<int>(); }
+  double gameTime() const { return line.at("game_time_s").get<double>(); }
+};
+
+/// The first keys of every line.
+GameRecord gameRecord(const SeriesGame& game, int scoreLeft, int scoreRight, double gameTime, bool finished);
+
+/// What is known after the games so far. Only pairs that are whole count, in their order and without a gap;
+/// with a sequential test none after its verdict.
+struct SeriesResult {
+  int games = 0;  // that count: twice the pairs
+  int wins = 0;   // of A
+  int ties = 0;
+  int losses = 0;
+  int goalsA = 0;
+  int goalsB = 0;
+  PairSummary difference;  // goals of A minus goals of B, per ten minutes
+  Verdict verdict = Verdict::Open;
+  double logLikelihoodRatio = 0.0;
+  std::vector<double> pairs;  // value of each, goals per ten minutes
+
+  nlohmann::ordered_json toJson(const SeriesChoice& choice) const;
+  std::string toText(const SeriesChoice& choice) const;
+};
+
+class Series {
+ public:
+  /// Begins or resumes the series in the folder. Resuming takes the number of pairs and the test from
+  /// `choice` and demands that the games are the same. Throws std::runtime_error: other games in the folder,
+  /// another process works on it, damaged files.
+  Series(const std::string& folder, const SeriesChoice& choice);
+
+  const SeriesChoice& choice() const { return choice_; }
+  const std::string& folder() const { return folder_; }
+  /// Indices (gameOf()) of games that are to be played, in order; empty when all are, or the test has
+  /// decided.
+  std::vector<int> open() const;
+  bool has(int index) const { return records_.contains(index); }
+  int played() const { return static_cast<int>(records_.size()); }
+  SeriesResult result() const;
+  /// One more game, from one thread at a time.
+  void add(const GameRecord& record);
+  /// Puts matches.jsonl in order, without games that do not count, and writes result.json.
+  SeriesResult finish();
+
+ private:
+  void readLines();
+  std::string path(const char* name) const { return folder_ + "/" + name; }
+
+  std::string folder_;
+  std::shared_ptr<void> lock_;
+  SeriesChoice choice_;
+  std::map<int, GameRecord> records_;  // by index
+};
+
+/// Plays one game. Calls `goOn` with the game time now and then; false means to give up, and the record is
+/// then not used. Throws std::runtime_error if the game cannot be played.
+using PlayGame = std::function<GameRecord(const SeriesGame&, const std::function<bool(double)>& goOn)>;
+
+struct SeriesProgress {
+  int gamesPlayed = 0;  // of this and earlier runs
+  int gamesAtMost = 0;
+  int running = 0;
+  double secondsLeft = 0.0;  // wall time at the present speed; below 0: not known yet
+  SeriesResult result;
+
+  std::string line(const SeriesChoice& choice) const;
+};
+
+/// Plays what is open, `jobs` games at a time, each in a thread of its own. `watch` is called a few times a
+/// second from the calling thread; false stops, and what was finished can be resumed. The first error of a
+/// game stops the others and is thrown. True if the series is complete.
+bool playSeries(Series& series, int jobs, const PlayGame& play,
+                const std::function<bool(const SeriesProgress&)>& watch);
+
+/// Plays games in this process, one thread each.
+PlayGame inProcessGames(const SeriesChoice& choice, const std::string& overlayFolder,
+                        const std::string& dataFolder);
+
+}  // namespace nonet::lab

@@ -1,0 +1,87 @@
+// What a series of paired games is: two sides, how many pairs, how they are played.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "nonet/lab/match/match.h"
+#include "nonet/lab/match/pair_statistics.h"
+
+namespace nonet::lab {
+
+/// A team and what runs it. At most one of `dataFolder`, `executable` and `command` is set; none: this
+/// program with its own data.
+struct SideChoice {
+  std::string name;
+  std::string dataFolder;  // this program with params/ and skills/ from here
+  std::string executable;  // another executable of Nonet, an older commit say
+  std::string command;     // starts agents of any kind; {host} {port} {monitor} {team} are filled in
+  std::vector<std::string> parameterFiles;  // overlaid in this order
+  std::vector<std::string> assignments;     // "key=value", overlaid after the files
+  std::string fingerprint;  // of all that (fingerprintOf()), so that a changed side is noticed
+
+  /// Can play in this process.
+  bool ours() const { return executable.empty() && command.empty(); }
+  /// "own", the folder, the executable or the command, and the overlays.
+  std::string describe() const;
+  friend bool operator==(const SideChoice&, const SideChoice&) = default;
+};
+
+/// What a word of the command line means as a side: "own", a folder with params/ or skills/, an executable
+/// file, or a shell command that contains {port}. Paths become absolute. Throws std::runtime_error.
+SideChoice sideFromWord(const std::string& word);
+
+/// A hash of what decides how the side plays, as far as files tell: the executable, params/ and skills/, the
+/// parameter files. `dataFolder`: of this program.
+std::string fingerprintOf(const SideChoice& side, const std::string& dataFolder);
+
+struct SeriesChoice {
+  SideChoice a;
+  SideChoice b;
+  int pairs = 20;                               // at most, if a sequential test is used
+  std::uint64_t seed = 1;                       // of the first pair; the next pair has the next one
+  double minutes = 10.0;                        // game time of one game
+  double kickOffWait = 5.0;                     // s
+  int players = 9;                              // a side
+  std::vector<std::string> settingFiles;        // of the server
+  std::vector<std::string> settingAssignments;  // of the server, Name=Value
+  std::optional<SequentialBounds> sequential;
+  std::string place = "process";  // "process", "tcp" (embedded server) or "HOST:PORT:MONITORPORT"
+  std::string serverCommand;      // starts that server before each game; empty: it runs already
+  // For the reader of the result.
+  std::string commandLine;
+  std::string date;
+  std::string version;
+
+  nlohmann::ordered_json toJson() const;
+  static SeriesChoice fromJson(const nlohmann::ordered_json& json);
+  /// Whether a game of the one is a game of the other: everything but the number of pairs, the test, and what
+  /// is for readers.
+  bool sameGames(const SeriesChoice& other) const;
+  /// What the difference of one goal in one game is worth in a pair, goals per ten minutes.
+  double resolution() const { return 10.0 / (2.0 * minutes); }
+};
+
+/// One game of a series. In the first of a pair A plays on the left.
+struct SeriesGame {
+  int pair = 1;  // from 1
+  int game = 1;  // 1 or 2
+  std::uint64_t seed = 1;
+
+  bool aLeft() const { return game == 1; }
+};
+SeriesGame gameOf(const SeriesChoice& choice, int index);  // index from 0: pair 1 game 1, pair 1 game 2, ...
+
+/// The match that this game is. `overlayFolder` holds the sides' assignments as files (writeOverlays()).
+MatchChoice matchOf(const SeriesChoice& choice, const SeriesGame& game, const std::string& overlayFolder);
+
+/// Writes the assignments of both sides as parameter files into the folder and tries all parameters of sides
+/// that run this program, so that an error shows before the first game. Throws.
+void writeOverlays(const SeriesChoice& choice, const std::string& overlayFolder,
+                   const std::string& dataFolder);
+
+}  // namespace nonet::lab

@@ -1,0 +1,217 @@
+#include "nonet/lab/match/series_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+namespace nonet::lab {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+ordered_json sideJson(const SideChoice& side) {
+  return {{"name", side.name},       {"data", side.dataFolder},       {"executable", side.executable},
+          {"command", side.command}, {"params", side.parameterFiles}, {"set", side.assignments}};
+}
+
+SideChoice sideFromJson(const ordered_json& json) {
+  SideChoice side;
+  side.name = json.at("name").get<std::string>();
+  side.dataFolder = json.at("data").get<std::string>();
+  side.executable = json.at("executable").get<std::string>();
+  side.command = json.at("command").get<std::string>();
+  side.parameterFiles = json.at("params").get<std::vector<std::string>>();
+  side.assignments = json.at("set").get<std::vector<std::string>>();
+  side.fingerprint = json.at("fingerprint").get<std::string>();
+  return side;
+}
+
+// "key=value" as a line of TOML: numbers and truth values bare, anything else is a text with a unit.
+std::string assignmentToml(const std::string& assignment) {
+  const std::size_t equal = assignment.find('=');
+  if (equal == std::string::npos || equal == 0 || equal + 1 == assignment.size())
+    throw std::runtime_error(
+        fmt::format("'{}': expected key=value, such as team.formation.stopperBehind=2m", assignment));
+  const std::string value = assignment.substr(equal + 1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const bool bare =
+      (error == std::errc() && end == value.data() + value.size()) || value == "true" || value == "false";
+  return fmt::format("{} = {}\n", assignment.substr(0, equal), bare ? value : "\"" + value + "\"");
+}
+
+std::string overlayFile(const std::string& folder, bool sideB) {
+  return folder + (sideB ? "/set-b.toml" : "/set-a.toml");
+}
+
+TeamChoice teamOf(const SeriesChoice& choice, bool sideB, const std::string& overlayFolder) {
+  const SideChoice& side = sideB ? choice.b : choice.a;
+  TeamChoice team;
+  team.name = side.name;
+  team.players = choice.players;
+  team.parameterFiles = side.parameterFiles;
+  if (!side.assignments.empty()) team.parameterFiles.push_back(overlayFile(overlayFolder, sideB));
+  team.dataFolder = side.dataFolder;
+  return team;
+}
+
+// FNV-1a, 64 bits.
+void hashFile(const std::string& path, std::uint64_t& hash) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 65536> block{};
+  while (file.read(block.data(), block.size()) || file.gcount() > 0) {
+    for (std::streamsize i = 0; i < file.gcount(); ++i) {
+      hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 0x100000001b3ULL;
+    }
+  }
+}
+
+}  // namespace
+
+std::string fingerprintOf(const SideChoice& side, const std::string& dataFolder) {
+  if (!side.command.empty()) return "";
+  std::vector<std::string> files = {side.executable.empty() ? "/proc/self/exe" : side.executable};
+  if (side.ours()) {
+    const std::string& data = side.dataFolder.empty() ? dataFolder : side.dataFolder;
+    for (const char* folder : {"/params", "/skills"}) {
+      if (!fs::is_directory(data + folder)) continue;
+      for (const auto& entry : fs::directory_iterator(data + folder)) files.push_back(entry.path().string());
+    }
+  }
+  std::sort(files.begin() + 1, files.end());
+  files.insert(files.end(), side.parameterFiles.begin(), side.parameterFiles.end());
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const std::string& file : files) hashFile(file, hash);
+  return fmt::format("{:016x}", hash);
+}
+
+std::string SideChoice::describe() const {
+  std::string text = !command.empty()      ? command
+                     : !executable.empty() ? executable
+                     : !dataFolder.empty() ? dataFolder
+                                           : "own";
+  for (const std::string& file : parameterFiles) text += " + " + file;
+  for (const std::string& assignment : assignments) text += " + " + assignment;
+  return text;
+}
+
+SideChoice sideFromWord(const std::string& word) {
+  SideChoice side;
+  if (word == "own") return side;
+  if (word.find("{port}") != std::string::npos) {
+    side.command = word;
+    return side;
+  }
+  std::error_code error;
+  const std::string path = fs::absolute(word, error).lexically_normal().string();
+  if (fs::is_directory(path, error)) {
+    if (!fs::is_directory(path + "/skills", error))
+      throw std::runtime_error(fmt::format("{}: a side's folder must hold skills/ (and params/)", word));
+    side.dataFolder = path;
+    return side;
+  }
+  if (fs::is_regular_file(path, error) && ::access(path.c_str(), X_OK) == 0) {
+    side.executable = path;
+    return side;
+  }
+  throw std::runtime_error(fmt::format(
+      "'{}' is no side: expected own, a folder with skills/ and params/, an executable of Nonet, or "
+      "a command that contains {{port}}",
+      word));
+}
+
+ordered_json SeriesChoice::toJson() const {
+  ordered_json json = {{"a", sideJson(a)},
+                       {"b", sideJson(b)},
+                       {"pairs", pairs},
+                       {"seed", seed},
+                       {"minutes", minutes},
+                       {"kick_off_wait_s", kickOffWait},
+                       {"players", players},
+                       {"setting_files", settingFiles},
+                       {"settings", settingAssignments},
+                       {"sprt", nullptr},
+                       {"place", place},
+                       {"server_command", serverCommand},
+                       {"command_line", commandLine},
+                       {"date", date},
+                       {"version", version}};
+  if (sequential) json["sprt"] = {sequential->low, sequential->high};
+  return json;
+}
+
+SeriesChoice SeriesChoice::fromJson(const ordered_json& json) {
+  SeriesChoice choice;
+  choice.a = sideFromJson(json.at("a"));
+  choice.b = sideFromJson(json.at("b"));
+  json.at("pairs").get_to(choice.pairs);
+  json.at("seed").get_to(choice.seed);
+  json.at("minutes").get_to(choice.minutes);
+  json.at("kick_off_wait_s").get_to(choice.kickOffWait);
+  json.at("players").get_to(choice.players);
+  json.at("setting_files").get_to(choice.settingFiles);
+  json.at("settings").get_to(choice.settingAssignments);
+  if (!json.at("sprt").is_null())
+    choice.sequential =
+        SequentialBounds{json.at("sprt").at(0).get<double>(), json.at("sprt").at(1).get<double>()};
+  json.at("place").get_to(choice.place);
+  json.at("server_command").get_to(choice.serverCommand);
+  json.at("command_line").get_to(choice.commandLine);
+  json.at("date").get_to(choice.date);
+  json.at("version").get_to(choice.version);
+  return choice;
+}
+
+bool SeriesChoice::sameGames(const SeriesChoice& other) const {
+  return a == other.a && b == other.b && seed == other.seed && minutes == other.minutes &&
+         kickOffWait == other.kickOffWait && players == other.players && settingFiles == other.settingFiles &&
+         settingAssignments == other.settingAssignments && place == other.place &&
+         serverCommand == other.serverCommand;
+}
+
+SeriesGame gameOf(const SeriesChoice& choice, int index) {
+  return {.pair = index / 2 + 1,
+          .game = index % 2 + 1,
+          .seed = choice.seed + static_cast<std::uint64_t>(index / 2)};
+}
+
+MatchChoice matchOf(const SeriesChoice& choice, const SeriesGame& game, const std::string& overlayFolder) {
+  MatchChoice match;
+  match.left = teamOf(choice, !game.aLeft(), overlayFolder);
+  match.right = teamOf(choice, game.aLeft(), overlayFolder);
+  match.seed = game.seed;
+  match.minutes = choice.minutes;
+  match.kickOffWait = choice.kickOffWait;
+  for (const std::string& file : choice.settingFiles) match.settings.overlayFile(file);
+  for (const std::string& assignment : choice.settingAssignments) match.settings.setAssignment(assignment);
+  return match;
+}
+
+void writeOverlays(const SeriesChoice& choice, const std::string& overlayFolder,
+                   const std::string& dataFolder) {
+  for (const bool sideB : {false, true}) {
+    const SideChoice& side = sideB ? choice.b : choice.a;
+    if (!side.assignments.empty()) {
+      std::ofstream file(overlayFile(overlayFolder, sideB));
+      for (const std::string& assignment : side.assignments) file << assignmentToml(assignment);
+      if (!file.flush())
+        throw std::runtime_error(fmt::format("cannot write {}", overlayFile(overlayFolder, sideB)));
+    }
+    if (!side.ours()) continue;
+    MatchChoice match = matchOf(choice, gameOf(choice, 0), overlayFolder);
+    for (int unum = 1; unum <= choice.players; ++unum) {
+      agent::makeAgentConfig(agentChoice(match, sideB, unum),
+                             side.dataFolder.empty() ? dataFolder : side.dataFolder);
+    }
+  }
+}
+
+}  // namespace nonet::lab

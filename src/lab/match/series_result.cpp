@@ -1,0 +1,89 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "nonet/lab/match/series.h"
+
+namespace nonet::lab {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string interval(const PairSummary& difference) {
+  if (difference.pairs < 2) return "interval not known yet";
+  return fmt::format("[{:+.2f}, {:+.2f}]", difference.low, difference.high);
+}
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+  return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+}
+
+std::string verdictText(const SeriesResult& result, const SeriesChoice& choice) {
+  const SequentialBounds& bounds = *choice.sequential;
+  std::string text = fmt::format("sequential test of {:+.2f} against {:+.2f}: ", bounds.low, bounds.high);
+  if (result.verdict == Verdict::Open)
+    text += "open";
+  else
+    text += fmt::format("{:+.2f} is accepted", result.verdict == Verdict::Low ? bounds.low : bounds.high);
+  return text + fmt::format(" after {} pairs (log ratio {:.2f} of +-{:.2f})", result.pairs.size(),
+                            result.logLikelihoodRatio, SequentialTest::bound());
+}
+
+}  // namespace
+
+ordered_json SeriesResult::toJson(const SeriesChoice& choice) const {
+  ordered_json json = {{"a", choice.a.describe()},
+                       {"b", choice.b.describe()},
+                       {"name_a", choice.a.name},
+                       {"name_b", choice.b.name},
+                       {"place", choice.place},
+                       {"command_line", choice.commandLine},
+                       {"date", choice.date},
+                       {"version", choice.version},
+                       {"minutes", choice.minutes},
+                       {"games", games},
+                       {"wins", wins},
+                       {"ties", ties},
+                       {"losses", losses},
+                       {"goals_a", goalsA},
+                       {"goals_b", goalsB},
+                       {"difference_per_10_min", difference.mean},
+                       {"standard_error", difference.standardError},
+                       {"interval_95", {difference.low, difference.high}},
+                       {"pairs", pairs}};
+  if (choice.sequential) {
+    json["sprt"] = {{"low", choice.sequential->low},
+                    {"high", choice.sequential->high},
+                    {"verdict", verdictName(verdict)},
+                    {"log_ratio", logLikelihoodRatio}};
+  }
+  return json;
+}
+
+std::string SeriesResult::toText(const SeriesChoice& choice) const {
+  std::string text = fmt::format("\nA: {}\nB: {}\n", choice.a.describe(), choice.b.describe());
+  text += fmt::format("{} games of {:g} minutes ({} pairs): A won {}, tied {}, lost {}; goals {} : {}\n",
+                      games, choice.minutes, pairs.size(), wins, ties, losses, goalsA, goalsB);
+  text +=
+      fmt::format("goal difference per ten minutes, A minus B: {:+.3f} (standard error {:.3f}), 95 % {}\n",
+                  difference.mean, difference.standardError, interval(difference));
+  if (choice.sequential) text += verdictText(*this, choice) + "\n";
+  return text;
+}
+
+std::string SeriesProgress::line(const SeriesChoice& choice) const {
+  std::string text = fmt::format("{} of {} games  +{} ={} -{}  goals {} : {}", gamesPlayed, gamesAtMost,
+                                 result.wins, result.ties, result.losses, result.goalsA, result.goalsB);
+  if (!result.pairs.empty())
+    text += fmt::format("  difference {:+.2f} {}", result.difference.mean, interval(result.difference));
+  if (choice.sequential && !result.pairs.empty())
+    text +=
+        fmt::format("  log ratio {:+.2f} of +-{:.2f}", result.logLikelihoodRatio, SequentialTest::bound());
+  if (secondsLeft >= 0.0)
+    text += fmt::format("  {}{} left", choice.sequential ? "at most " : "", duration(secondsLeft));
+  return text;
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "nonet/lab/match/series.h"
+
+namespace nonet::lab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kTick = std::chrono::milliseconds(200);
+
+// The games of one run of the program, shared among the threads that play them.
+class Run {
+ public:
+  Run(Series& series, const PlayGame& play) : series_(series), play_(play), games_(series.open()) {
+    played_.resize(games_.size(), 0.0);
+  }
+
+  void work() {
+    for (;;) {
+      std::size_t next = 0;
+      {
+        const std::lock_guard lock(mutex_);
+        if (stop_ || next_ == games_.size()) break;
+        next = next_++;
+        ++running_;
+      }
+      playOne(next);
+      const std::lock_guard lock(mutex_);
+      --running_;
+      changed_.notify_all();
+    }
+  }
+
+  // Until all threads have nothing left to do.
+  void watch(const std::function<bool(const SeriesProgress&)>& watch) {
+    std::unique_lock lock(mutex_);
+    while (!over()) {
+      const SeriesProgress now = progress();
+      lock.unlock();
+      const bool more = watch(now);
+      lock.lock();
+      if (!more) stop_ = true;
+      changed_.wait_for(lock, kTick, [this] { return over(); });
+    }
+    const SeriesProgress last = progress();
+    lock.unlock();
+    watch(last);
+  }
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  bool over() const { return running_ == 0 && (stop_ || next_ == games_.size()); }
+
+  void playOne(std::size_t i) {
+    try {
+      const GameRecord record = play_(gameOf(series_.choice(), games_[i]), [this, i](double gameTime) {
+        const std::lock_guard lock(mutex_);
+        played_[i] = gameTime;
+        return !stop_;
+      });
+      const std::lock_guard lock(mutex_);
+      if (stop_) return;
+      played_[i] = 60.0 * series_.choice().minutes;
+      series_.add(record);
+      if (series_.choice().sequential && series_.result().verdict != Verdict::Open) stop_ = true;
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_ && !stop_) error_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  SeriesProgress progress() const {
+    SeriesProgress now;
+    now.gamesPlayed = series_.played();
+    now.gamesAtMost = 2 * series_.choice().pairs;
+    now.running = running_;
+    now.result = series_.result();
+    double done = 0.0;
+    for (const double seconds : played_) done += seconds;
+    const double all = 60.0 * series_.choice().minutes * static_cast<double>(games_.size());
+    const double wall = std::chrono::duration<double>(Clock::now() - start_).count();
+    now.secondsLeft = done > 0.0 ? wall * (all - done) / done : -1.0;
+    return now;
+  }
+
+  Series& series_;
+  const PlayGame& play_;
+  std::vector<int> games_;
+  std::vector<double> played_;  // s of game time, beside games_
+  const Clock::time_point start_ = Clock::now();
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t next_ = 0;
+  int running_ = 0;
+  bool stop_ = false;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+bool playSeries(Series& series, int jobs, const PlayGame& play,
+                const std::function<bool(const SeriesProgress&)>& watch) {
+  Run run(series, play);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < std::max(1, jobs); ++i) threads.emplace_back([&run] { run.work(); });
+  run.watch(watch);
+  for (std::thread& thread : threads) thread.join();
+  run.rethrow();
+  return series.open().empty();
+}
+
+PlayGame inProcessGames(const SeriesChoice& choice, const std::string& overlayFolder,
+                        const std::string& dataFolder) {
+  return [choice, overlayFolder, dataFolder](const SeriesGame& game,
+                                             const std::function<bool(double)>& goOn) {
+    constexpr long kCyclesBetweenReports = 50;
+    MatchObservers observers;
+    observers.afterCycle = [&](const sim::Simulation&, const MatchWatcher& watcher) {
+      return watcher.result().cycles % kCyclesBetweenReports != 0 || goOn(watcher.result().gameTime);
+    };
+    const MatchResult match = playInProcess(matchOf(choice, game, overlayFolder), dataFolder, 1, observers);
+    GameRecord record = gameRecord(game, match.scoreLeft, match.scoreRight, match.gameTime, match.finished);
+    record.line["signature"] = fmt::format("{:016x}", match.signature);
+    record.line["falls_a"] = match.falls(!game.aLeft());
+    record.line["falls_b"] = match.falls(game.aLeft());
+    record.times["wall_time_s"] = match.wallTime;
+    return record;
+  };
+}
+
+}  // namespace nonet::lab

@@ -1,0 +1,219 @@
+#include "nonet/lab/match/series.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "nonet/math/random.h"
+
+namespace nonet::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  explicit Folder(const std::string& name)
+      : path_(fs::temp_directory_path() / ("nonet_series_" + name + "_" + std::to_string(::getpid()))) {
+    fs::remove_all(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string path() const { return path_.string(); }
+  std::string text(const std::string& file) const {
+    std::ifstream stream(path_ / file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+ private:
+  fs::path path_;
+};
+
+SeriesChoice choiceOf(int pairs) {
+  SeriesChoice choice;
+  choice.a.name = "A";
+  choice.b.name = "B";
+  choice.pairs = pairs;
+  choice.date = "today";
+  return choice;
+}
+
+// Goals from the seed alone, A about one goal better.
+GameRecord fakeGame(const SeriesGame& game) {
+  Random random = Random(game.seed).fork(static_cast<std::uint64_t>(game.game));
+  const int a = static_cast<int>(random.below(4));
+  const int b = static_cast<int>(random.below(3));
+  GameRecord record = gameRecord(game, game.aLeft() ? a : b, game.aLeft() ? b : a, 600.0, true);
+  record.times["wall_time_s"] = 1.0;
+  return record;
+}
+
+const PlayGame kFake = [](const SeriesGame& game, const std::function<bool(double)>& goOn) {
+  goOn(300.0);
+  return fakeGame(game);
+};
+const auto kGoOn = [](const SeriesProgress&) { return true; };
+
+TEST(Series, CountsWhatWasPlayed) {
+  const Folder folder("count");
+  Series series(folder.path(), choiceOf(7));
+  EXPECT_EQ(series.open().size(), 14U);
+  EXPECT_TRUE(playSeries(series, 3, kFake, kGoOn));
+  const SeriesResult result = series.finish();
+  int goals = 0;
+  int wins = 0;
+  double sum = 0.0;
+  for (int i = 0; i < 14; ++i) {
+    const GameRecord record = fakeGame(gameOf(series.choice(), i));
+    goals += record.scoreA();
+    wins += record.scoreA() > record.scoreB() ? 1 : 0;
+    sum += record.scoreA() - record.scoreB();
+  }
+  EXPECT_EQ(result.games, 14);
+  EXPECT_EQ(result.goalsA, goals);
+  EXPECT_EQ(result.wins, wins);
+  EXPECT_EQ(result.wins + result.ties + result.losses, 14);
+  EXPECT_NEAR(result.difference.mean, sum / 14.0, 1e-12) << "ten-minute games";
+  EXPECT_NE(result.toText(series.choice()).find("14 games"), std::string::npos);
+}
+
+// A goes left first; both games of a pair share their seed, and no other pair has it.
+TEST(Series, GamesComeInPairs) {
+  const SeriesChoice choice = choiceOf(3);
+  for (int pair = 0; pair < 3; ++pair) {
+    const SeriesGame first = gameOf(choice, 2 * pair);
+    const SeriesGame second = gameOf(choice, 2 * pair + 1);
+    EXPECT_EQ(first.seed, second.seed);
+    EXPECT_EQ(first.seed, choice.seed + static_cast<std::uint64_t>(pair));
+    EXPECT_TRUE(first.aLeft());
+    EXPECT_FALSE(second.aLeft());
+  }
+  const std::string nowhere;
+  EXPECT_EQ(matchOf(choice, gameOf(choice, 0), nowhere).left.name, "A");
+  EXPECT_EQ(matchOf(choice, gameOf(choice, 1), nowhere).left.name, "B");
+  EXPECT_EQ(matchOf(choice, gameOf(choice, 1), nowhere).right.name, "A");
+}
+
+// The folder as a killed process leaves it: some games, half a line.
+TEST(Series, KilledAndResumedItEndsInTheSameBytes) {
+  const Folder whole("whole");
+  const Folder killed("killed");
+  for (const Folder* folder : {&whole, &killed}) {
+    SeriesChoice choice = choiceOf(10);
+    if (folder == &killed) {
+      Series series(folder->path(), choice);
+      for (const int index : {0, 3, 1, 7}) series.add(fakeGame(gameOf(choice, index)));
+      std::ofstream(folder->path() + "/matches.jsonl", std::ios::app) << R"({"pair":3,"game":1,"se)";
+      EXPECT_THROW(Series(folder->path(), choice), std::runtime_error) << "another process works on it";
+    }
+    choice.date = folder == &killed ? "tomorrow" : "today";
+    Series series(folder->path(), choice);
+    EXPECT_EQ(series.played(), folder == &killed ? 4 : 0);
+    EXPECT_TRUE(playSeries(series, 2, kFake, kGoOn));
+    series.finish();
+  }
+  for (const char* file : {"matches.jsonl", "result.json", "series.json", "times.jsonl"}) {
+    EXPECT_EQ(whole.text(file), killed.text(file)) << file;
+    EXPECT_FALSE(whole.text(file).empty()) << file;
+  }
+}
+
+TEST(Series, TheSequentialTestStopsAtTheSameGameOnAnyNumberOfThreads) {
+  const Folder one("one");
+  const Folder four("four");
+  SeriesChoice choice = choiceOf(400);
+  choice.sequential = SequentialBounds{0.0, 0.5};
+  for (const Folder* folder : {&one, &four}) {
+    Series series(folder->path(), choice);
+    EXPECT_TRUE(playSeries(series, folder == &one ? 1 : 4, kFake, kGoOn));
+    const SeriesResult result = series.finish();
+    EXPECT_EQ(result.verdict, Verdict::High);
+    EXPECT_LT(result.games, 200);
+  }
+  EXPECT_EQ(one.text("matches.jsonl"), four.text("matches.jsonl"));
+  EXPECT_EQ(one.text("result.json"), four.text("result.json"));
+}
+
+TEST(Series, OtherGamesAreNotMixedIn) {
+  const Folder folder("other");
+  SeriesChoice choice = choiceOf(2);
+  { const Series series(folder.path(), choice); }
+  choice.pairs = 5;
+  EXPECT_EQ(Series(folder.path(), choice).open().size(), 10U) << "more pairs are the same series";
+  choice.b.assignments = {"team.x=1"};
+  EXPECT_EQ(Series(folder.path(), choice).played(), 0) << "nothing was played yet: the choice may change";
+  { Series(folder.path(), choice).add(fakeGame(gameOf(choice, 0))); }
+  choice.b.assignments = {"team.x=2"};
+  EXPECT_THROW(Series(folder.path(), choice), std::runtime_error);
+}
+
+TEST(Series, AChangedSideHasAnotherFingerprint) {
+  const Folder folder("fingerprint");
+  for (const char* name : {"/params", "/skills"}) fs::create_directories(folder.path() + name);
+  SideChoice side;
+  side.dataFolder = folder.path();
+  const std::string before = fingerprintOf(side, "");
+  EXPECT_EQ(fingerprintOf(side, ""), before);
+  std::ofstream(folder.path() + "/params/type0.toml") << "x = 1";
+  const std::string after = fingerprintOf(side, "");
+  EXPECT_NE(after, before);
+  std::ofstream(folder.path() + "/params/type0.toml") << "x = 2";
+  EXPECT_NE(fingerprintOf(side, ""), after);
+}
+
+TEST(Series, AnErrorInAGameEndsTheSeries) {
+  const Folder folder("error");
+  Series series(folder.path(), choiceOf(5));
+  const PlayGame fails = [](const SeriesGame& game, const std::function<bool(double)>&) {
+    if (game.pair == 2) throw std::runtime_error("no server");
+    return fakeGame(game);
+  };
+  EXPECT_THROW(playSeries(series, 2, fails, kGoOn), std::runtime_error);
+  EXPECT_FALSE(series.open().empty());
+}
+
+TEST(Series, SidesAreReadFromWords) {
+  EXPECT_TRUE(sideFromWord("own").ours());
+  EXPECT_EQ(sideFromWord(NONET_SOURCE_DIR).dataFolder, NONET_SOURCE_DIR);
+  EXPECT_EQ(sideFromWord("start.sh {host} {port}").command, "start.sh {host} {port}");
+  EXPECT_EQ(sideFromWord("/bin/sh").executable, "/bin/sh");
+  EXPECT_THROW(sideFromWord("/nowhere/at/all"), std::runtime_error);
+  EXPECT_THROW(sideFromWord("/tmp"), std::runtime_error) << "no skills/ there";
+}
+
+// The same team on both sides: the second game of a pair is the first with the names exchanged, so that every
+// pair is a tie in sum. Another seed is another game.
+TEST(Series, ATeamAgainstItselfInThisProcess) {
+  SeriesChoice choice = choiceOf(2);
+  choice.players = 2;
+  choice.minutes = 2.0 / 60.0;
+  choice.kickOffWait = 0.5;
+  const Folder folder("itself");
+  Series series(folder.path(), choice);
+  writeOverlays(choice, folder.path(), NONET_SOURCE_DIR);
+  EXPECT_TRUE(playSeries(series, 2, inProcessGames(choice, folder.path(), NONET_SOURCE_DIR), kGoOn));
+  const SeriesResult result = series.finish();
+  EXPECT_EQ(result.games, 4);
+  EXPECT_EQ(result.difference.mean, 0.0);
+  EXPECT_EQ(result.difference.standardError, 0.0);
+}
+
+// An unknown parameter is an error before anything is played.
+TEST(Series, OverlaysAreTriedBeforeTheFirstGame) {
+  const Folder folder("overlay");
+  fs::create_directories(folder.path());
+  SeriesChoice choice = choiceOf(1);
+  choice.a.assignments = {"team.noSuchThing=1"};
+  EXPECT_THROW(writeOverlays(choice, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
+  choice.a.assignments = {"nonsense"};
+  EXPECT_THROW(writeOverlays(choice, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace nonet::lab
