@@ -37,7 +37,7 @@ std::string_view verdictName(Verdict verdict);  // "open", "low", "high"
 
 /// Sequential t-test: after each pair, the ratio of the two claims' likelihoods, each at the spread that fits
 /// it best (a generalised likelihood ratio, since the spread is unknown), is held against Wald's bounds
-/// (Wald 1945, "Sequential tests of statistical hypotheses", section 3). With n values of mean m and sum of
+/// [Wald 1945, section 3]. With n values of mean m and sum of
 /// squares S about m:
 ///
 ///     log ratio = (n - 1) / 2 * log((S + n (m - low)^2) / (S + n (m - high)^2))
