@@ -1,21 +1,26 @@
 #!/usr/bin/env bash
-# Stops exactly the agents that scripts/start.sh and scripts/startChallengePlayer.sh started, by their recorded
-# process ids: asks with SIGTERM, insists with SIGKILL after three seconds.
+# Stops exactly the agents that the start scripts started, by their recorded process ids: asks with SIGTERM, insists
+# with SIGKILL after three seconds. With TEAM only those of this team.
+#   scripts/kill.sh [-t TEAM]
 set -euo pipefail
-root=$(cd "$(dirname "$0")/.." && pwd)
-pids=${NONET_LOGS:-$root/logs}/pids
+. "$(dirname "$0")/common.sh"
+only=
+if [ $# -gt 0 ]; then
+  [ $# -eq 2 ] && [ "$1" = -t ] && [ -n "$2" ] || usage
+  only=$2
+fi
 if [ ! -f "$pids" ]; then
   echo "kill: nothing was started"
   exit 0
 fi
 
-# Alive, and still the process that was started (its start time is recorded beside its number).
-isOurs() { [ "$(awk '{ sub(/^.*\) /, ""); print $20 }' "/proc/$1/stat" 2>/dev/null)" = "$2" ]; }
-
-running=()
-while read -r pid started _; do
-  if isOurs "$pid" "$started"; then
-    kill -TERM "$pid" 2>/dev/null && running+=("$pid $started")
+running=() others=()
+while read -r pid time name; do
+  isOurs "$pid" "$time" || continue
+  if [ -z "$only" ] || [ "${name%_*}" = "$only" ]; then
+    kill -TERM "$pid" 2>/dev/null && running+=("$pid $time")
+  else
+    others+=("$pid $time $name")
   fi
 done <"$pids"
 
@@ -32,5 +37,9 @@ for entry in "${running[@]}"; do
   # shellcheck disable=SC2086
   if isOurs $entry; then kill -KILL "${entry%% *}" 2>/dev/null || true; fi
 done
-rm -f "$pids"
-echo "stopped ${#running[@]} agents"
+if [ ${#others[@]} -gt 0 ]; then
+  printf '%s\n' "${others[@]}" >"$pids"
+else
+  rm -f "$pids"
+fi
+echo "stopped ${#running[@]} agents${only:+ of team $only}"

@@ -1,0 +1,116 @@
+# For the scripts that start and stop agents; not run by itself. Expects $0, gives:
+#   root      the folder with scripts/, params/ and skills/
+#   logs      where agents write what they say, and where their process ids are kept (NONET_LOGS)
+#   findBinary, parseArguments, launch, awaitAgents, isOurs
+root=$(cd "$(dirname "$0")/.." && pwd)
+script=$(basename "$0" .sh)
+
+# In a source tree logs/ beside the sources; an installation may belong to somebody else.
+if [ -n "${NONET_LOGS:-}" ]; then
+  logs=$NONET_LOGS
+elif [ -f "$root/CMakeLists.txt" ]; then
+  logs=$root/logs
+elif [ -d "${HOME:-}" ] && [ -w "${HOME:-}" ]; then
+  logs=${XDG_STATE_HOME:-$HOME/.local/state}/nonet
+else
+  logs=${TMPDIR:-/tmp}/nonet-$(id -u)
+fi
+pids=$logs/pids
+
+fail() {
+  echo "$script: $1" >&2
+  exit 2
+}
+usage() {
+  sed -n '/^#   scripts\//s/^#   //p' "$0" >&2
+  exit 2
+}
+
+# The given one, the installed one, the release build, or a new release build.
+findBinary() {
+  binary=${NONET_BINARY:-}
+  if [ -n "$binary" ]; then
+    [ -x "$binary" ] || fail "NONET_BINARY $binary: there is no program"
+    return
+  fi
+  for binary in "$root/../../bin/nonet" "$root/build/release/nonet"; do
+    [ ! -x "$binary" ] || return 0
+  done
+  [ -x "$root/scripts/build.sh" ] || fail "there is no program nonet: set NONET_BINARY"
+  "$root/scripts/build.sh" release nonet >&2
+  binary=$root/build/release/nonet
+}
+
+isNumber() { [[ $1 =~ ^[0-9]+$ ]]; }
+isReal() { [[ $1 =~ ^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)$ ]]; }
+
+# HOST [PORT] and the league's options; the rest, after --, goes to `nonet play`.
+host=127.0.0.1 port=3100 team=Nonet count=9
+options=()
+parseArguments() {
+  if [ $# -gt 0 ] && [[ $1 != -* ]]; then host=$1; shift; fi
+  if [ $# -gt 0 ] && [[ $1 != -* ]]; then port=$1; shift; fi
+  while [ $# -gt 0 ]; do
+    case $1 in
+      -p | -t | -n | -mh | -h | --host)
+        [ $# -ge 2 ] || usage
+        case $1 in
+          -p) port=$2 ;;
+          -t) team=$2 ;;
+          -n) count=$2 ;;
+          -h | --host) host=$2 ;;
+          -mh) ;;
+        esac
+        shift 2
+        ;;
+      --) shift; break ;;
+      *) usage ;;
+    esac
+  done
+  options=("$@")
+  checkAddress
+  [[ $count =~ ^[0-9]+$ ]] && [ "$count" -ge 1 ] && [ "$count" -le 11 ] || fail "-n must be 1 to 11, not '$count'"
+}
+checkAddress() {
+  [ -n "$host" ] || fail "HOST is empty"
+  isNumber "$port" && [ "$port" -ge 1 ] && [ "$port" -le 65535 ] || fail "the port must be 1 to 65535, not '$port'"
+  [[ $team =~ ^[^[:space:]/\;\"\(\)]{1,64}$ ]] ||
+    fail "team '$team': blanks, brackets, quotes, semicolons and slashes cannot be in a name"
+}
+
+# State and start time of a process: the time tells ours from a later one that happens to get the same number.
+statOf() { awk '{ sub(/^.*\) /, ""); print $1, $20 }' "/proc/$1/stat" 2>/dev/null; }
+# Alive (a zombie is not), and the process that was started then.
+isOurs() {
+  local state started
+  read -r state started <<<"$(statOf "$1")" || return 1
+  [ "$started" = "$2" ] && [ "$state" != Z ] && [ "$state" != X ]
+}
+
+# launch NAME ARGUMENT...: one agent in the background, its words in $logs/NAME.log.
+started=()
+launch() {
+  local name=$1 pid
+  shift
+  mkdir -p "$logs"
+  setsid "$binary" play --host "$host" --port "$port" --team "$team" "$@" >"$logs/$name.log" 2>&1 </dev/null &
+  pid=$!
+  local entry
+  entry="$pid $(statOf "$pid" | awk '{ print $2 }') $name"
+  echo "$entry" >>"$pids"
+  started+=("$entry")
+}
+
+# Says who died at once, with the last words; fails if anybody did.
+awaitAgents() {
+  local pid time name dead=0
+  sleep "${NONET_WATCH:-1}"
+  for entry in "${started[@]}"; do
+    read -r pid time name <<<"$entry"
+    if ! isOurs "$pid" "${time:-0}"; then
+      dead=$((dead + 1))
+      echo "$script: $name has ended: $(grep -v "^Run with --help" "$logs/$name.log" 2>/dev/null | tail -n 1)" >&2
+    fi
+  done
+  [ "$dead" -eq 0 ] || { echo "$script: $dead of ${#started[@]} agents did not start" >&2; return 1; }
+}
