@@ -52,7 +52,7 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
   }
 
   s.world = &s.worldModel.update(percept);
-  team::Intent intent = s.behavior.update(*s.world, s.motion.state().busy || s.motion.state().rising);
+  team::Intent intent = s.behavior.update(*s.world, s.motion.state());
   if (intent.beam) {
     if (s.config.startPose) intent.beam = s.config.startPose;
     effectors.beam = intent.beam;

@@ -1,5 +1,8 @@
 #include "nonet/motion/motion.h"
 
+#include <optional>
+#include <variant>
+
 #include "nonet/motion/fall_control.h"
 #include "nonet/motion/head_control.h"
 #include "nonet/motion/walk_control.h"
@@ -65,29 +68,28 @@ struct Motion::Stages {
   JointTargets targets;
   MotionState state;
   Mode mode = Mode::Walk;
-  MotionRequest pending;   // Skill or Kick that was begun
-  bool skillDone = false;  // the request that is still made was carried out
+  std::optional<PlaySkill> begun;  // the skill that was begun and is still asked for
+  bool skillDone = false;          // the request that is still made was carried out
   bool started = false;
   bool putDown = false;  // its steps are over
   double quiet = 0.0;    // s, for which the robot has stood still
 };
 
-// A skill or kick that has begun is played to its end. Kicks begin from a quiet stand.
+// A skill or kick that has begun is played to its end.
 bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionRequest& request) {
-  using Kind = MotionRequest::Kind;
   if (mode != Mode::Skill) {
-    const bool wanted = request.kind == Kind::Skill || request.kind == Kind::Kick;
+    const auto* skill = std::get_if<PlaySkill>(&request);
+    const bool wanted = skill != nullptr || std::holds_alternative<KickTo>(request);
     // A skill is played once for a request, however long it is made; a ball that still lies there is kicked
     // again.
-    const bool same = request.kind == Kind::Skill && pending.kind == Kind::Skill &&
-                      request.skill == pending.skill && request.side == pending.side;
-    if (!wanted) pending = MotionRequest{};
+    const bool same = skill != nullptr && begun == *skill;
+    if (!wanted) begun.reset();
     if (!wanted || (skillDone && same)) {
       skillDone = skillDone && wanted;
       return false;
     }
     skillDone = false;
-    pending = request;
+    begun = skill != nullptr ? std::optional(*skill) : std::nullopt;
     if (!startSkill(request)) return false;
   }
   state.busy = true;
@@ -99,13 +101,14 @@ bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionReq
 }
 
 bool Motion::Stages::startSkill(const MotionRequest& request) {
-  const bool kick = request.kind == MotionRequest::Kind::Kick;
-  if (kick && quiet < kKickQuiet) return false;
-  const bool mirrored = request.side == model::Side::Right;
-  const std::string_view name = kick ? std::string_view("kick_forward") : request.skill.view();
-  std::optional<Vector2> ball;
-  if (kick) ball = request.ball;
-  if (!player.start(name, mirrored, targets.angles, ball)) {
+  bool started = false;
+  if (const auto* kick = std::get_if<KickTo>(&request)) {
+    if (quiet < kKickQuiet) return false;
+    started = player.start("kick_forward", kick->foot == model::Side::Right, targets.angles, kick->ball);
+  } else if (const auto* skill = std::get_if<PlaySkill>(&request)) {
+    started = player.start(skill->name, skill->side == model::Side::Right, targets.angles);
+  }
+  if (!started) {
     state.skillFinished = true;  // no such skill: nothing to wait for
     skillDone = true;
     return false;
@@ -149,6 +152,7 @@ const JointTargets& Motion::update(const world::WorldState& world, const MotionR
                                    const HeadRequest& head) {
   Stages& s = *stages_;
   s.state = MotionState{};
+  s.state.request = request;
   const bool skillRuns = s.mode == Stages::Mode::Skill;
   const bool still = s.walk.standing() && world.body.gyro.norm() < kKickRate && world.body.footContact[0] &&
                      world.body.footContact[1];

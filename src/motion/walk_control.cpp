@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace nonet::motion {
 
@@ -21,6 +22,15 @@ bool anyWithin(const std::array<world::PlayerState, world::kTeamSize + 1>& playe
     if ((players[i].X_FP.translation - p_FR).norm() < distance) return true;
   }
   return false;
+}
+
+WalkSet setAskedFor(const MotionRequest& request) {
+  return std::visit(
+      [](const auto& kind) {
+        if constexpr (requires { kind.set; }) return kind.set;
+        return WalkSet::Automatic;
+      },
+      request);
 }
 
 }  // namespace
@@ -46,26 +56,25 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& wa
     blended_ = std::min(1.0, blended_ + world.body.cycleTime / time);
     active_ = blend(from_, sets_.of(set_), blended_);
   }
-  const bool walk =
-      request.kind == MotionRequest::Kind::WalkVelocity || request.kind == MotionRequest::Kind::WalkTo;
+  const bool walk = std::holds_alternative<WalkVelocity>(request) || std::holds_alternative<WalkTo>(request);
   engine_.update(world.body, active_, speedFor(request), walk, targets);
 }
 
 Pose2 WalkControl::speedFor(const MotionRequest& request) const {
   Pose2 speed;
-  if (request.kind == MotionRequest::Kind::WalkVelocity) {
-    speed = request.velocity;
+  if (const auto* walk = std::get_if<WalkVelocity>(&request)) {
+    speed = walk->velocity;
     speed.translation = Pose2(Vector2::Zero(), engine_.trace().torsoYaw).rotate(speed.translation);
   }
-  if (request.kind == MotionRequest::Kind::WalkTo) speed = speedTowards(request);
+  if (const auto* walk = std::get_if<WalkTo>(&request)) speed = speedTowards(*walk);
   return speed;
 }
 
 MotionRequest WalkControl::calmed(const world::WorldState& world, const MotionRequest& wanted) {
   MotionRequest request = wanted;
-  if (wanted.kind == MotionRequest::Kind::WalkTo) {
-    request.target =
-        filter_.update(wanted.target, world.body.odometryStep, world.body.cycleTime, active_.targetSmoothing);
+  if (auto* walk = std::get_if<WalkTo>(&request)) {
+    walk->target =
+        filter_.update(walk->target, world.body.odometryStep, world.body.cycleTime, active_.targetSmoothing);
   } else {
     filter_.reset();
   }
@@ -73,12 +82,14 @@ MotionRequest WalkControl::calmed(const world::WorldState& world, const MotionRe
 }
 
 WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionRequest& request) const {
-  if (request.set != WalkSet::Automatic) return request.set;
-  const bool stand = request.kind == MotionRequest::Kind::Stand;
+  const WalkSet asked = setAskedFor(request);
+  if (asked != WalkSet::Automatic) return asked;
+  const bool stand = std::holds_alternative<Stand>(request);
   if (selection_.usePositioning && (stand || stumbles() || isCrowded(world))) return WalkSet::Positioning;
   if (stand) return set_;
-  if (selection_.useSprint && request.kind == MotionRequest::Kind::WalkTo) {
-    const Vector2& target = request.target.translation;
+  const auto* walk = std::get_if<WalkTo>(&request);
+  if (selection_.useSprint && walk != nullptr) {
+    const Vector2& target = walk->target.translation;
     const double angle = std::atan2(target.y(), target.x());
     if (target.norm() > selection_.sprintDistance && std::abs(angle) < selection_.sprintAngle) {
       return WalkSet::Sprint;
@@ -117,7 +128,7 @@ bool WalkControl::isCrowded(const world::WorldState& world) const {
 
 // Walks and turns at the same time, always [MacAlpine 2012a, section 4.2]: straight at the target as fast as
 // the set allows in that direction, turning towards it when far, to the target's heading when near.
-Pose2 WalkControl::speedTowards(const MotionRequest& request) const {
+Pose2 WalkControl::speedTowards(const WalkTo& request) const {
   const WalkParameters& p = active_;
   // As seen from the walk frame, in which the torso turns to and fro.
   const Pose2 X_WTarget = Pose2(Vector2::Zero(), engine_.trace().torsoYaw) * request.target;

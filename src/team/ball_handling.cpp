@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "nonet/team/navigation.h"
 #include "nonet/team/play_time.h"
@@ -20,11 +21,7 @@ bool opponentNear(const world::WorldState& world, double distance) {
 }
 
 MotionRequest walk(const Pose2& target, bool stop) {
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::WalkTo;
-  request.target = target;
-  request.stopAtTarget = stop;
-  return request;
+  return motion::WalkTo{target, stop};
 }
 
 // Where the ball should end up if nobody were on the field.
@@ -150,7 +147,7 @@ MotionRequest playBall(const world::WorldState& world, const Vector2& p_FTarget,
   caution.duel = true;
   MotionRequest request =
       walkTo(world, approachPose(world, p_FTarget, parameters, parameters.ball.behindBall), caution);
-  request.stopAtTarget = false;
+  if (auto* way = std::get_if<motion::WalkTo>(&request)) way->stopAtTarget = false;
   return request;
 }
 
@@ -201,12 +198,7 @@ bool mayKick(const world::WorldState& world, const Vector2& p_FTarget, const Bal
 }
 
 MotionRequest kick(const Task& task) {
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::Kick;
-  request.ball = task.ball;
-  request.target = Pose2(task.target, task.direction);
-  request.side = task.ball.y() > 0.0 ? model::Side::Left : model::Side::Right;
-  return request;
+  return motion::KickTo{task.ball, task.target, task.ball.y() > 0.0 ? model::Side::Left : model::Side::Right};
 }
 
 // The last steps before a kick: to where the ball lies in front of the nearer foot, slowing down.
@@ -215,8 +207,7 @@ MotionRequest lineUp(const Task& task, const BallHandlingParameters& p) {
   constexpr double kNear = 0.01;  // m, from here on the least speed fades
   const double foot = task.besides >= 0.0 ? 1.0 : -1.0;
   const Vector2 place = task.ball - p.kickAhead * task.along - foot * p.kickAside * task.aside;
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::WalkVelocity;
+  motion::WalkVelocity request;
   // Small steps may lead nowhere: the least speed keeps a robot from stopping short of its place for ever.
   const Vector2 speed = (p.kickGain + p.kickLeastSpeed / std::max(place.norm(), kNear)) * place;
   request.velocity.translation = speed * std::min(1.0, kMost / std::max(speed.norm(), 1e-9));

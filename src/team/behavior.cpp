@@ -39,7 +39,8 @@ constexpr double kKickOffLine = 0.6;    // m behind the halfway line that others
 
 Behavior::Behavior(const TeamParameters& parameters) : parameters_(parameters), goalie_(parameters) {}
 
-Intent Behavior::update(const WorldState& world, bool motionBusy) {
+Intent Behavior::update(const WorldState& world, const motion::MotionState& motion) {
+  kicking_ = motion.askedForKick();
   Intent intent;
   lookAtBall(world, intent.head);
   const Phase phase = world.game.phase;
@@ -50,10 +51,9 @@ Intent Behavior::update(const WorldState& world, bool motionBusy) {
   agree(world);
   if (isBeamPhase(phase)) {
     beforeKickOff(world, intent);
-  } else if (phase != Phase::GameOver && phase != Phase::Other && !motionBusy) {
+  } else if (phase != Phase::GameOver && phase != Phase::Other && !motion.busy && !motion.rising) {
     play(world, intent);
   }
-  kicking_ = intent.motion.kind == MotionRequest::Kind::Kick;
   intent.say = radio_.update(world, tidings(world));
   return intent;
 }
@@ -115,8 +115,7 @@ void Behavior::beforeKickOff(const WorldState& world, Intent& intent) {
 }
 
 void Behavior::searchBall(const WorldState& world, Intent& intent) const {
-  intent.motion.kind = MotionRequest::Kind::WalkVelocity;
-  intent.motion.velocity = Pose2(0.0, 0.0, world.ball.p_RB.y() >= 0.0 ? 0.8 : -0.8);
+  intent.motion = motion::WalkVelocity{Pose2(0.0, 0.0, world.ball.p_RB.y() >= 0.0 ? 0.8 : -0.8)};
   intent.head.kind = HeadRequest::Kind::Scan;
 }
 

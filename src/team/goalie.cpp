@@ -60,9 +60,7 @@ bool Goalie::dives(const world::WorldState& world, motion::MotionRequest& reques
   const double aside = (world.self.X_FR.inverse() * Vector2(self.x(), atUs->y)).y();
   const double stepped = parameters.diveReach + parameters.sideStepSpeed * atUs->time;
   if (std::abs(aside) < stepped || std::abs(aside) > parameters.diveFarthest) return false;
-  request.kind = motion::MotionRequest::Kind::Skill;
-  request.skill.assign("dive");
-  request.side = aside > 0.0 ? model::Side::Left : model::Side::Right;
+  request = motion::PlaySkill{std::string_view("dive"), aside > 0.0 ? model::Side::Left : model::Side::Right};
   return true;
 }
 

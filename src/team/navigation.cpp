@@ -142,30 +142,23 @@ motion::MotionRequest walkTo(const world::WorldState& world, const Pose2& X_FWan
   const double distance = (X_FTarget.translation - start).norm();
   const bool arrived = distance < kCloseEnough;
   const bool crowded = roomLeft(start, obstacles.all()) < 0.1;
-  motion::MotionRequest request;
-  request.kind = motion::MotionRequest::Kind::WalkTo;
+  const Pose2 X_RF = world.self.X_FR.inverse();
   if (arrived && !crowded) {
-    request.target = world.self.X_FR.inverse() * X_FTarget;
-    if (std::abs(request.target.rotation) < kFacing) request.kind = motion::MotionRequest::Kind::Stand;
-    return request;
+    const motion::WalkTo last{X_RF * X_FTarget};
+    if (std::abs(last.target.rotation) < kFacing) return motion::Stand{};
+    return last;
   }
   const Way way = chooseWay(world, X_FTarget.translation, obstacles.all());
-  if (!way.anywhere) {
-    request.kind = motion::MotionRequest::Kind::Stand;
-    return request;
-  }
+  if (!way.anywhere) return motion::Stand{};
   if (way.straight) {
     const double heading = distance > kNear ? way.heading : X_FTarget.rotation;
-    request.target = world.self.X_FR.inverse() * Pose2(X_FTarget.translation, heading);
-    return request;
+    return motion::WalkTo{X_RF * Pose2(X_FTarget.translation, heading)};
   }
   // Around somebody: a step at a time, slowly where it is narrow. Giving way to somebody close needs no turn.
   const double step = crowded ? kSlowStep : kDetourStep;
   const Vector2 next = start + step * Vector2(std::cos(way.heading), std::sin(way.heading));
   const double heading = crowded ? world.self.X_FR.rotation : way.heading;
-  request.target = world.self.X_FR.inverse() * Pose2(next, heading);
-  request.stopAtTarget = crowded;
-  return request;
+  return motion::WalkTo{X_RF * Pose2(next, heading), crowded};
 }
 
 }  // namespace nonet::team

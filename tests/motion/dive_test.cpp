@@ -30,9 +30,7 @@ TEST_P(Goalkeeping, TheBlockSpreadsTheFeetAndStaysUp) {
     return trial.physics().bodyPosition(trial.robot(), model::BodyId::LFoot).y() -
            trial.physics().bodyPosition(trial.robot(), model::BodyId::RFoot).y();
   };
-  motion::MotionRequest request;
-  request.kind = motion::MotionRequest::Kind::Skill;
-  request.skill.assign("block");
+  const motion::PlaySkill request{std::string_view("block")};
   float widest = 0.0F;
   for (int i = 0; i < 200 && !trial.motion().state().skillFinished; ++i) {
     trial.step(request);

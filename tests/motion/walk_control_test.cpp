@@ -17,7 +17,6 @@ class WalkControlTest : public testing::Test {
     world.body.cycleTime = kCycleTime;
     // Team mate 5 is the robot itself.
     world.teammates[5] = {.X_FP = world.self.X_FR, .known = true};
-    walk.kind = MotionRequest::Kind::WalkTo;
     walk.target = Pose2(3.0, 0.0, 0.0);
   }
   static WalkSelection selection() {
@@ -36,7 +35,7 @@ class WalkControlTest : public testing::Test {
   }
 
   world::WorldState world;
-  MotionRequest walk;
+  WalkTo walk;
   JointTargets targets;
   WalkControl control{model::robotModel(0), WalkSets{}, selection()};
 };
@@ -126,10 +125,7 @@ class Sidestepper : public WalkControlTest {
     return chosen;
   }
   WalkSet setFor(const Pose2& velocity) {
-    MotionRequest request;
-    request.kind = MotionRequest::Kind::WalkVelocity;
-    request.velocity = velocity;
-    sidestepper.update(world, request, targets);
+    sidestepper.update(world, WalkVelocity{velocity}, targets);
     return sidestepper.set();
   }
 

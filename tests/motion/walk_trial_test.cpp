@@ -21,10 +21,7 @@ TrialSetup setupFor(int type) {
 }
 
 MotionRequest velocity(double x, double y, double turn) {
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::WalkVelocity;
-  request.velocity = Pose2(x, y, turn);
-  return request;
+  return motion::WalkVelocity{Pose2(x, y, turn)};
 }
 
 class EveryType : public testing::TestWithParam<int> {};

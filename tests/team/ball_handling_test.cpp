@@ -31,7 +31,7 @@ Outcome approach(const Pose2& start, const Vector2& ball, const Vector2& target)
   world::WorldState world = worldWith(start, ball);
   for (int cycle = 0; cycle < 2000; ++cycle) {
     world.ball.p_RB = world.self.X_FR.inverse() * ball;
-    const motion::MotionRequest request = handleBall(world, target, parameters, KickUse::Never);
+    const auto request = std::get<motion::WalkTo>(handleBall(world, target, parameters, KickUse::Never));
     const double distance = request.target.translation.norm();
     const double step = std::min(0.01, distance);  // 0.5 m/s
     const Vector2 move =
@@ -71,16 +71,12 @@ bool comesToKick(const Pose2& start, const Vector2& ball, const Vector2& target,
   for (int cycle = 0; cycle < 1000; ++cycle) {
     world.ball.p_RB = world.self.X_FR.inverse() * ball;
     const motion::MotionRequest request = handleBall(world, target, parameters, KickUse::IfFree);
+    if (std::holds_alternative<motion::KickTo>(request)) return true;
     Pose2 speed;
-    switch (request.kind) {
-      case motion::MotionRequest::Kind::Kick:
-        return true;
-      case motion::MotionRequest::Kind::WalkVelocity:
-        speed = request.velocity;
-        break;
-      default:
-        speed.translation = 0.5 * request.target.translation.normalized();
-        speed.rotation = std::clamp(request.target.rotation, -1.5, 1.5);
+    if (const auto* velocity = std::get_if<motion::WalkVelocity>(&request)) speed = velocity->velocity;
+    if (const auto* way = std::get_if<motion::WalkTo>(&request)) {
+      speed.translation = 0.5 * way->target.translation.normalized();
+      speed.rotation = std::clamp(way->target.rotation, -1.5, 1.5);
     }
     world.self.X_FR =
         world.self.X_FR * Pose2(kCycleTime * (speed.translation + drift), kCycleTime * speed.rotation);

@@ -31,7 +31,7 @@ bool dives(const Vector2& place, const Vector2& speed) {
   world::WorldState world = scene();
   setBall(world, place, speed);
   Goalie goalie{TeamParameters{}};
-  return goalie.update(world, true).kind == MotionRequest::Kind::Skill;
+  return std::holds_alternative<motion::PlaySkill>(goalie.update(world, true));
 }
 
 TEST(Goalie, DivesForAShotBesideIt) {
@@ -39,8 +39,8 @@ TEST(Goalie, DivesForAShotBesideIt) {
   setBall(world, {-12.5, 0.7}, {-4.0, 0.0});
   Goalie goalie{TeamParameters{}};
   const MotionRequest request = goalie.update(world, true);
-  EXPECT_EQ(request.kind, MotionRequest::Kind::Skill);
-  EXPECT_EQ(request.side, model::Side::Left);
+  ASSERT_TRUE(std::holds_alternative<motion::PlaySkill>(request));
+  EXPECT_EQ(std::get<motion::PlaySkill>(request).side, model::Side::Left);
 }
 
 TEST(Goalie, DoesNotDiveWhereThatChangesNothing) {
@@ -73,7 +73,8 @@ TEST(Goalie, StaysBetweenBallAndGoal) {
     Goalie goalie{TeamParameters{}};
     const MotionRequest request = goalie.update(world, true);
     EXPECT_FALSE(goalie.claimsBall());
-    const Vector2 place = world.self.X_FR * request.target.translation;
+    const auto* walk = std::get_if<motion::WalkTo>(&request);
+    const Vector2 place = world.self.X_FR * (walk != nullptr ? walk->target.translation : Vector2(0.0, 0.0));
     EXPECT_NEAR((place - Vector2(-15.0, 0.0)).norm(), 0.6, 0.15);
     EXPECT_GE(place.y() * y, 0.0);
   }

@@ -20,15 +20,16 @@ constexpr double kTurnSpeed = 1.5;  // rad/s
 constexpr double kGain = 3.0;       // Hz, slows the walk down near a target at which it stops
 
 void follow(const MotionRequest& request, Pose2& X_FR) {
-  if (request.kind != MotionRequest::Kind::WalkTo) return;
-  const double distance = request.target.translation.norm();
+  const auto* walk = std::get_if<motion::WalkTo>(&request);
+  if (walk == nullptr) return;
+  const double distance = walk->target.translation.norm();
   double speed = kSpeed;
-  if (request.stopAtTarget) speed = std::min(speed, kGain * distance);
+  if (walk->stopAtTarget) speed = std::min(speed, kGain * distance);
   const double step = std::min(speed * kCycleTime, distance);
   const Vector2 move =
-      distance > 1e-9 ? Vector2(request.target.translation * (step / distance)) : Vector2::Zero();
+      distance > 1e-9 ? Vector2(walk->target.translation * (step / distance)) : Vector2::Zero();
   const double most = kTurnSpeed * kCycleTime;
-  X_FR = X_FR * Pose2(move, std::clamp(request.target.rotation, -most, most));
+  X_FR = X_FR * Pose2(move, std::clamp(walk->target.rotation, -most, most));
 }
 
 void put(world::PlayerState& player, const Vector2& place) {
@@ -58,7 +59,7 @@ TEST(Navigation, ArrivesAndKeepsClearOfStandingRobots) {
     bool there = false;
     for (int cycle = 0; cycle < 2000 && !there; ++cycle) {
       const MotionRequest request = walkTo(world, target, {});
-      there = request.kind == MotionRequest::Kind::Stand;
+      there = std::holds_alternative<motion::Stand>(request);
       follow(request, world.self.X_FR);
       for (const Vector2& other : others)
         closest = std::min(closest, (other - world.self.X_FR.translation).norm());

@@ -7,18 +7,13 @@
 
 #include "nonet/model/robot_model.h"
 #include "nonet/motion/fall_control.h"
+#include "nonet/motion/motion_state.h"
 #include "nonet/motion/parameters.h"
 #include "nonet/motion/request.h"
 #include "nonet/motion/walk_control.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::motion {
-
-struct MotionState {
-  bool rising = false;         // getting up
-  bool busy = false;           // a skill or kick runs that must not be interrupted
-  bool skillFinished = false;  // the requested skill ended in this cycle
-};
 
 class Motion {
  public:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <variant>
 
 #include "nonet/math/inline_string.h"
 #include "nonet/math/pose2.h"
@@ -12,24 +13,41 @@ namespace nonet::motion {
 /// Which parameter set the walk uses; Automatic: by target and ball (walk_control.h).
 enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Sidestep, Positioning };
 
-/// Rising from a fall needs no request: motion does it by itself unless the request is Skill or Dive.
-struct MotionRequest {
-  enum class Kind : std::uint8_t {
-    Stand,         // stable crouch
-    WalkVelocity,  // `velocity`: m/s, m/s, rad/s in the robot frame; clamped to what the walk can do
-    WalkTo,        // `target`: pose in the present robot frame; `stopAtTarget` or run through
-    Skill,         // a named skill from skills/*.skl, to its end
-    Kick,          // towards `target.translation` (robot frame) the ball that lies at `ball` (robot frame)
-  };
-  Kind kind = Kind::Stand;
+/// A stable crouch.
+struct Stand {
+  WalkSet set = WalkSet::Automatic;
+};
+
+/// Walks with this speed: m/s, m/s, rad/s in the robot frame; clamped to what the walk can do.
+struct WalkVelocity {
   Pose2 velocity;
+  WalkSet set = WalkSet::Automatic;
+};
+
+/// Walks to a pose in the present robot frame, and stops there or runs through it.
+struct WalkTo {
   Pose2 target;
   bool stopAtTarget = true;
   WalkSet set = WalkSet::Automatic;
-  Vector2 ball = Vector2::Zero();
-  InlineString<32> skill;
-  model::Side side = model::Side::Left;  // mirror of the skill, kicking foot
 };
+
+/// Plays a skill of skills/*.skl to its end. `side` Right mirrors it.
+struct PlaySkill {
+  InlineString<32> name;
+  model::Side side = model::Side::Left;
+  friend bool operator==(const PlaySkill&, const PlaySkill&) = default;
+};
+
+/// Kicks the ball that lies at `ball` towards `target` (both in the present robot frame, m) with this foot.
+/// The kick begins once the robot stands quietly.
+struct KickTo {
+  Vector2 ball = Vector2::Zero();
+  Vector2 target = Vector2::Zero();
+  model::Side foot = model::Side::Left;
+};
+
+/// Rising from a fall needs no request: motion does it by itself unless a skill runs.
+using MotionRequest = std::variant<Stand, WalkVelocity, WalkTo, PlaySkill, KickTo>;
 
 struct HeadRequest {
   enum class Kind : std::uint8_t { Look, Point, Scan } kind = Kind::Scan;

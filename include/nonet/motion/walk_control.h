@@ -99,7 +99,7 @@ class WalkControl {
  public:
   WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection);
 
-  /// Kinds Stand, WalkVelocity and WalkTo; any other stands.
+  /// Any other request than WalkVelocity and WalkTo stands.
   void update(const world::WorldState& world, const MotionRequest& wanted, JointTargets& targets);
 
   /// Begins again from the stand (after a fall, a skill).
@@ -118,7 +118,7 @@ class WalkControl {
   bool isCrowded(const world::WorldState& world) const;
   bool stumbles() const;
   Pose2 speedFor(const MotionRequest& request) const;
-  Pose2 speedTowards(const MotionRequest& request) const;
+  Pose2 speedTowards(const WalkTo& request) const;
 
   WalkSets sets_;
   WalkSelection selection_;

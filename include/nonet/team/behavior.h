@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "nonet/motion/motion_state.h"
 #include "nonet/team/formation.h"
 #include "nonet/team/goalie.h"
 #include "nonet/team/intent.h"
@@ -20,7 +21,7 @@ class Behavior {
  public:
   explicit Behavior(const TeamParameters& parameters);
 
-  Intent update(const world::WorldState& world, bool motionBusy);
+  Intent update(const world::WorldState& world, const motion::MotionState& motion);
 
   Role role() const { return role_; }
 

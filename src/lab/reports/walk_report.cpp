@@ -61,8 +61,7 @@ Walk walkInDirection(TrialRobot& trial, const WalkReportSettings& settings, doub
   NoisyPose noisy(settings, random.fork(1));
   const Pose2 start = trial.pose();
   const Vector2 along(std::cos(direction), std::sin(direction));
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::WalkVelocity;
+  motion::WalkVelocity request;
   Walk walk;
   double before = 0.0;
   const int cycles = static_cast<int>((kAccelerate + kSteady) / kCycleTime);
@@ -91,8 +90,7 @@ Walk walkTenSeconds(TrialRobot& trial, const WalkReportSettings& settings, std::
   const Pose2 start = trial.pose();
   const Pose2 odometryStart = trial.belief().body.odometry;
   const Vector2 target = start * Vector2(kFarTarget, 0.0);
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::WalkTo;
+  motion::WalkTo request;
   request.stopAtTarget = false;
   Walk walk;
   for (int i = 0; i < 500; ++i) {
@@ -114,8 +112,7 @@ Walk walkTenSeconds(TrialRobot& trial, const WalkReportSettings& settings, std::
 Walk turnOnTheSpot(TrialRobot& trial, double sense, std::uint64_t seed) {
   Random random(seed);
   begin(trial, random);
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::WalkVelocity;
+  motion::WalkVelocity request;
   request.velocity = Pose2(0.0, 0.0, sense * kFastTurn);
   Walk walk;
   double turned = 0.0;

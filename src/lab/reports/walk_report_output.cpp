@@ -173,9 +173,7 @@ std::string walkReportSvg(const WalkReport& report) {
 std::string walkTraceSvg(const TrialSetup& setup, const Pose2& velocity, double seconds) {
   RobotTrial trial(setup);
   trial.settle(Pose2());
-  motion::MotionRequest request;
-  request.kind = motion::MotionRequest::Kind::WalkVelocity;
-  request.velocity = velocity;
+  const motion::WalkVelocity request{velocity};
   trial.run(request, 3.0);
   Curve comX{"desired", "#2060c0", {}};
   Curve comXMeasured{"measured", "#c03020", {}};

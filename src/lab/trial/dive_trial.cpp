@@ -50,15 +50,11 @@ Dive diveAndRise(const TrialSetup& setup, Side side, std::uint64_t seed) {
   RobotTrial trial(own);
   Random random(seed);
   trial.settle(Pose2(0.0, 0.0, random.uniform(-kPi, kPi)));
-  MotionRequest step;
-  step.kind = MotionRequest::Kind::WalkVelocity;
+  motion::WalkVelocity step;
   step.velocity = Pose2(0.0, random.uniform(-0.2, 0.2), random.uniform(-0.5, 0.5));
   trial.run(step, random.uniform(0.0, 0.6));  // a goalie is seldom quite still
   const Pose2 start = trial.pose();
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::Skill;
-  request.skill.assign("dive");
-  request.side = side;
+  const motion::PlaySkill request{std::string_view("dive"), side};
   Dive dive;
   const double begin = trial.time();
   std::size_t next = 0;

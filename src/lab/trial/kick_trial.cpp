@@ -36,9 +36,8 @@ void putBall(RobotTrial& trial, const Vector2& place) {
 
 // The last steps to a ball: slow, in any direction.
 void walkAbout(RobotTrial& trial, Random& random) {
-  MotionRequest walk;
-  walk.kind = MotionRequest::Kind::WalkVelocity;
-  walk.velocity = Pose2(random.uniform(-0.1, 0.2), random.uniform(-0.15, 0.15), random.uniform(-0.5, 0.5));
+  const Pose2 velocity(random.uniform(-0.1, 0.2), random.uniform(-0.15, 0.15), random.uniform(-0.5, 0.5));
+  const motion::WalkVelocity walk{velocity};
   trial.run(walk, random.uniform(1.0, 2.0));
 }
 
@@ -61,11 +60,10 @@ Kick kickOnce(const TrialSetup& setup, Side side, KickFrom from, std::uint64_t s
   const Vector2 ball(kAhead + random.uniform(-kAheadSpread, kAheadSpread),
                      sign * (kAside + random.uniform(-kAsideSpread, kAsideSpread)));
   if (from == KickFrom::Walk) walkAbout(trial, random);
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::Kick;
-  request.side = side;
+  motion::KickTo request;
+  request.foot = side;
   request.ball = ball + Vector2(random.normal(0.0, kBelief), random.normal(0.0, kBelief));
-  request.target = Pose2(10.0, 0.0, 0.0);
+  request.target = Vector2(10.0, 0.0);
   Kick kick;
   const double begin = trial.time();
   const auto watch = [&] {

@@ -52,10 +52,8 @@ bool tip(RobotTrial& trial, double direction, Random& random) {
 }
 
 void dive(RobotTrial& trial, Random& random) {
-  MotionRequest request;
-  request.kind = MotionRequest::Kind::Skill;
-  request.skill = std::string_view("dive");
-  request.side = random.below(2) == 0 ? model::Side::Left : model::Side::Right;
+  const model::Side side = random.below(2) == 0 ? model::Side::Left : model::Side::Right;
+  const motion::PlaySkill request{std::string_view("dive"), side};
   for (int i = 0; i < 200 && !trial.motion().state().skillFinished; ++i) trial.step(request);
 }
 
@@ -94,8 +92,7 @@ Rise fallAndRise(const TrialSetup& setup, FallKind kind, std::uint64_t seed) {
   RobotTrial trial(own);
   Random random(seed);
   trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
-  MotionRequest walk;
-  walk.kind = MotionRequest::Kind::WalkVelocity;
+  motion::WalkVelocity walk;
   walk.velocity = Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-2.0, 2.0));
   trial.run(walk, random.uniform(0.0, 1.5));
   Rise result;

@@ -250,32 +250,25 @@ class Walker {
 
   MotionRequest request(const CourseLeg& leg, const Pose2& at, const Vector2& target, double held,
                         double heading) const {
-    MotionRequest request;
-    request.set = options_.set;
     const Vector2 p_RT = (at.inverse() * Pose2(target, 0.0)).translation;
     switch (leg.kind) {
       case Kind::Stop:
         break;
       case Kind::Walk:
-        request.kind = MotionRequest::Kind::WalkTo;
-        request.target = Pose2(p_RT, std::atan2(p_RT.y(), p_RT.x()));
-        request.stopAtTarget = false;
-        break;
+        return motion::WalkTo{Pose2(p_RT, std::atan2(p_RT.y(), p_RT.x())), false, options_.set};
       case Kind::Place:
-        request.kind = MotionRequest::Kind::WalkTo;
-        request.target = Pose2(p_RT, wrapAngle(heading - at.rotation));
-        break;
-      case Kind::Shift:
-        request.kind = MotionRequest::Kind::WalkVelocity;
-        request.velocity = Pose2(kFastest * p_RT.normalized(), kHeadingGain * wrapAngle(held - at.rotation));
-        break;
-      case Kind::Turn:
-        request.kind = MotionRequest::Kind::WalkVelocity;
-        request.velocity.rotation =
-            std::clamp(kHeadingGain * 2.0 * wrapAngle(heading - at.rotation), -kFastestTurn, kFastestTurn);
-        break;
+        return motion::WalkTo{Pose2(p_RT, wrapAngle(heading - at.rotation)), true, options_.set};
+      case Kind::Shift: {
+        const double turn = kHeadingGain * wrapAngle(held - at.rotation);
+        return motion::WalkVelocity{Pose2(kFastest * p_RT.normalized(), turn), options_.set};
+      }
+      case Kind::Turn: {
+        const double turn = kHeadingGain * 2.0 * wrapAngle(heading - at.rotation);
+        return motion::WalkVelocity{Pose2(0.0, 0.0, std::clamp(turn, -kFastestTurn, kFastestTurn)),
+                                    options_.set};
+      }
     }
-    return request;
+    return motion::Stand{options_.set};
   }
 
   void changeSet() {

@@ -1,0 +1,17 @@
+// What the body is doing: motion's word to the next cycle's decision.
+#pragma once
+
+#include "nonet/motion/request.h"
+
+namespace nonet::motion {
+
+struct MotionState {
+  MotionRequest request;       // what was asked for in the last cycle
+  bool rising = false;         // getting up
+  bool busy = false;           // a skill or kick runs that must not be interrupted
+  bool skillFinished = false;  // the requested skill ended in this cycle
+
+  bool askedForKick() const { return std::holds_alternative<KickTo>(request); }
+};
+
+}  // namespace nonet::motion
