@@ -18,8 +18,13 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 ordered_json sideJson(const SideChoice& side) {
-  return {{"name", side.name},       {"data", side.dataFolder},       {"executable", side.executable},
-          {"command", side.command}, {"params", side.parameterFiles}, {"set", side.assignments}};
+  return {{"name", side.name},
+          {"data", side.dataFolder},
+          {"executable", side.executable},
+          {"command", side.command},
+          {"params", side.parameterFiles},
+          {"set", side.assignments},
+          {"fingerprint", side.fingerprint}};
 }
 
 SideChoice sideFromJson(const ordered_json& json) {

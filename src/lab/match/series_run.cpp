@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -7,7 +8,9 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <time.h>
 
+#include "nonet/lab/match/frame_sources.h"
 #include "nonet/lab/match/series.h"
 
 namespace nonet::lab {
@@ -15,6 +18,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kTick = std::chrono::milliseconds(200);
+
+// Of this thread, s.
+double processorTime() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::string_view roleName(team::Role role) {
+  constexpr std::array<std::string_view, 11> kNames = {
+      "on ball",      "stopper",       "back left", "back right", "wing left", "wing right",
+      "forward left", "forward right", "supporter", "sweeper",    "goalie"};
+  const auto i = static_cast<std::size_t>(role);
+  return i < kNames.size() ? kNames[i] : "other";
+}
 
 // The games of one run of the program, shared among the threads that play them.
 class Run {
@@ -123,21 +141,34 @@ bool playSeries(Series& series, int jobs, const PlayGame& play,
 
 PlayGame inProcessGames(const SeriesChoice& choice, const std::string& overlayFolder,
                         const std::string& dataFolder) {
-  return [choice, overlayFolder, dataFolder](const SeriesGame& game,
-                                             const std::function<bool(double)>& goOn) {
-    constexpr long kCyclesBetweenReports = 50;
-    MatchObservers observers;
-    observers.afterCycle = [&](const sim::Simulation&, const MatchWatcher& watcher) {
-      return watcher.result().cycles % kCyclesBetweenReports != 0 || goOn(watcher.result().gameTime);
-    };
-    const MatchResult match = playInProcess(matchOf(choice, game, overlayFolder), dataFolder, 1, observers);
-    GameRecord record = gameRecord(game, match.scoreLeft, match.scoreRight, match.gameTime, match.finished);
-    record.line["signature"] = fmt::format("{:016x}", match.signature);
-    record.line["falls_a"] = match.falls(!game.aLeft());
-    record.line["falls_b"] = match.falls(game.aLeft());
-    record.times["wall_time_s"] = match.wallTime;
-    return record;
-  };
+  return
+      [choice, overlayFolder, dataFolder](const SeriesGame& game, const std::function<bool(double)>& goOn) {
+        constexpr long kCyclesBetweenReports = 50;
+        const double before = processorTime();
+        const MatchChoice match = matchOf(choice, game, overlayFolder);
+        SimulationFrames frames;
+        MatchStatistics statistics(
+            {match.settings.fieldLength, match.settings.fieldWidth, match.settings.goalWidth});
+        std::array<int, 2> score{};
+        MatchObservers observers;
+        observers.afterThought = [&](const Thought& thought) {
+          frames.setRole(thought.handle, roleName(thought.agent.role()));
+        };
+        observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher& watcher) {
+          if (const Frame* frame = frames.cycle(simulation)) {
+            statistics.add(*frame);
+            score = frame->score;
+          }
+          return watcher.result().cycles % kCyclesBetweenReports != 0 || goOn(watcher.result().gameTime);
+        };
+        const MatchResult result = playInProcess(match, dataFolder, 1, observers);
+        GameRecord record = gameRecord(game, score[0], score[1], result.gameTime, result.finished);
+        record.line["signature"] = fmt::format("{:016x}", result.signature);
+        record.line["statistics"] = statistics.toJson();
+        record.times["wall_time_s"] = result.wallTime;
+        record.times["processor_time_s"] = processorTime() - before;
+        return record;
+      };
 }
 
 }  // namespace nonet::lab
