@@ -6,7 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/app/commands.h"
-#include "nonet/sim/server.h"
+#include "nonet/sim/server/server.h"
 
 namespace nonet::app {
 

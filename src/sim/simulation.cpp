@@ -7,7 +7,7 @@
 
 #include "nonet/protocol/rounding.h"
 
-#include "simulation_implementation.h"
+#include "sim/simulation_implementation.h"
 
 namespace nonet::sim {
 

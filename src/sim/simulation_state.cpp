@@ -3,8 +3,8 @@
 
 #include "nonet/protocol/percept_text.h"
 
-#include "simulation_implementation.h"
-#include "state_bytes.h"
+#include "sim/physics/state_bytes.h"
+#include "sim/simulation_implementation.h"
 
 namespace nonet::sim {
 

@@ -1,0 +1,87 @@
+// Which robots (and the ball) are stepped together in a cycle, and the ODE worlds in which that happens.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <ode/ode.h>
+
+#include "sim/physics/mechanism.h"
+
+namespace nonet::sim {
+
+struct BodyNode;
+struct Collider;
+struct Cluster;
+struct QuickCell;
+
+/// A robot or the ball, in an ODE world of its own.
+struct Cell {
+  Cell();
+  ~Cell();
+  Cell(const Cell&) = delete;
+  Cell& operator=(const Cell&) = delete;
+
+  OdeWorld world;
+  Mechanism mechanism;
+  std::vector<BodyNode*> nodes;   // of the mechanism's bodies
+  RobotHandle handle = kNoRobot;  // kNoRobot: the ball
+  int robotType = -1;
+  std::unique_ptr<QuickCell> quick;  // for the quick stepper, made when first needed
+
+  // In this cycle:
+  std::size_t rank = 0;        // place in the order of creation
+  Cluster* cluster = nullptr;  // to which it belongs
+  std::size_t place = 0;       // in the cluster
+};
+
+/// A contact point, kept until the step.
+struct PendingContact {
+  dContact contact;
+  const Collider* first = nullptr;
+  const Collider* second = nullptr;
+  dJointFeedback* feedback = nullptr;  // of the foot that hears about it, or null
+};
+
+/// A world that holds replicas of several robots (and perhaps the ball).
+struct CommonWorld {
+  CommonWorld(std::span<Cell* const> cells, const WorldSettings& settings);
+
+  std::vector<RobotHandle> members;
+  std::vector<Mechanism> replicas;
+  OdeWorld world;
+  std::uint64_t lastUse = 0;
+};
+
+/// Common worlds are kept for a while: robots that touch often do so for many cycles.
+class CommonWorlds {
+ public:
+  CommonWorld& forCells(std::span<Cell* const> cells, const WorldSettings& settings, std::uint64_t cycle);
+  void forget(RobotHandle member);
+  void clear() { worlds_.clear(); }
+
+ private:
+  std::vector<std::unique_ptr<CommonWorld>> worlds_;
+};
+
+/// Cells that touch each other, directly or by way of others.
+struct Cluster {
+  std::vector<Cell*> cells;               // in order of creation
+  std::vector<PendingContact*> contacts;  // in order of creation
+  CommonWorld* common = nullptr;          // for more than one cell
+  std::vector<BodyNode*> stack;           // scratch
+  std::vector<BodyNode*> moved;           // by the step, in ODE's order
+};
+
+/// Has ODE report each body that it moves to the cluster.
+void watchBody(BodyNode& node);
+
+/// Fills `moved` with all bodies in the order in which ODE would step them: from the newest body that is
+/// awake along joints and contacts, the newest ones first. For steppers other than ODE's.
+void orderAsOde(Cluster& cluster);
+
+/// Steps one cluster with ODE's exact stepper. Nothing is touched but its cells.
+void stepExactly(Cluster& cluster, dReal seconds);
+
+}  // namespace nonet::sim
