@@ -12,7 +12,7 @@ constexpr std::size_t kCommonWorldsKept = 12;
 
 void onMoved(dBodyID body) {
   auto* node = static_cast<BodyNode*>(dBodyGetData(body));
-  node->collider.cell->cluster->moved.push_back(node);
+  node->collider.multibody->island->moved.push_back(node);
 }
 
 void watch(dBodyID body, BodyNode& node) {
@@ -20,9 +20,9 @@ void watch(dBodyID body, BodyNode& node) {
   dBodySetMovedCallback(body, &onMoved);
 }
 
-bool anyAwake(const Cluster& cluster) {
-  for (const Cell* cell : cluster.cells) {
-    for (const dBodyID body : cell->mechanism.bodies) {
+bool anyAwake(const Island& island) {
+  for (const Multibody* member : island.members) {
+    for (const dBodyID body : member->mechanism.bodies) {
       if (dBodyIsEnabled(body) != 0) return true;
     }
   }
@@ -40,69 +40,69 @@ void createContact(const OdeWorld& world, PendingContact& pending, dBodyID first
   if (pending.feedback != nullptr) dJointSetFeedback(joint, pending.feedback);
 }
 
-void stepAlone(Cluster& cluster, dReal seconds) {
-  Cell& cell = *cluster.cells.front();
+void stepAlone(Island& island, dReal seconds) {
+  Multibody& member = *island.members.front();
   const auto bodyOf = [](const Collider* collider) {
     return collider->node == nullptr ? nullptr : collider->node->body;
   };
-  for (PendingContact* pending : cluster.contacts) {
-    createContact(cell.world, *pending, bodyOf(pending->first), bodyOf(pending->second));
+  for (PendingContact* pending : island.contacts) {
+    createContact(member.world, *pending, bodyOf(pending->first), bodyOf(pending->second));
   }
-  dWorldStep(cell.world.id(), seconds);
-  dJointGroupEmpty(cell.world.contactJoints());
+  dWorldStep(member.world.id(), seconds);
+  dJointGroupEmpty(member.world.contactJoints());
 }
 
-void stepTogether(Cluster& cluster, dReal seconds) {
-  CommonWorld& common = *cluster.common;
-  for (std::size_t i = 0; i < cluster.cells.size(); ++i) {
-    const Cell& cell = *cluster.cells[i];
+void stepTogether(Island& island, dReal seconds) {
+  CommonWorld& common = *island.common;
+  for (std::size_t i = 0; i < island.members.size(); ++i) {
+    const Multibody& member = *island.members[i];
     const Mechanism& replica = common.replicas[i];
-    copyState(cell.mechanism, replica);
-    for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
-      BodyNode& node = *cell.nodes[k];
+    copyState(member.mechanism, replica);
+    for (std::size_t k = 0; k < member.nodes.size(); ++k) {
+      BodyNode& node = *member.nodes[k];
       watch(replica.bodies[k], node);
       setAwake(replica.bodies[k], dBodyIsEnabled(node.body) != 0, node.stepsBefore);
     }
   }
   const auto bodyOf = [&common](const Collider* collider) -> dBodyID {
     if (collider->node == nullptr) return nullptr;
-    return common.replicas[collider->cell->place].bodies[collider->node->place];
+    return common.replicas[collider->multibody->place].bodies[collider->node->place];
   };
-  for (PendingContact* pending : cluster.contacts) {
+  for (PendingContact* pending : island.contacts) {
     createContact(common.world, *pending, bodyOf(pending->first), bodyOf(pending->second));
   }
   dWorldStep(common.world.id(), seconds);
   dJointGroupEmpty(common.world.contactJoints());
-  for (std::size_t i = 0; i < cluster.cells.size(); ++i) {
-    const Cell& cell = *cluster.cells[i];
-    for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
+  for (std::size_t i = 0; i < island.members.size(); ++i) {
+    const Multibody& member = *island.members[i];
+    for (std::size_t k = 0; k < member.nodes.size(); ++k) {
       const dBodyID replica = common.replicas[i].bodies[k];
-      copyBody(replica, cell.nodes[k]->body);
-      setAwake(cell.nodes[k]->body, dBodyIsEnabled(replica) != 0, cell.nodes[k]->stepsUntilSleep);
+      copyBody(replica, member.nodes[k]->body);
+      setAwake(member.nodes[k]->body, dBodyIsEnabled(replica) != 0, member.nodes[k]->stepsUntilSleep);
     }
   }
 }
 
 }  // namespace
 
-Cell::Cell() = default;
-Cell::~Cell() = default;
+Multibody::Multibody() = default;
+Multibody::~Multibody() = default;
 
-CommonWorld::CommonWorld(std::span<Cell* const> cells, const WorldSettings& settings) {
-  for (const Cell* cell : cells) {
-    members.push_back(cell->handle);
-    replicas.push_back(cell->handle == kNoRobot
+CommonWorld::CommonWorld(std::span<Multibody* const> members, const WorldSettings& settings) {
+  for (const Multibody* member : members) {
+    handles.push_back(member->handle);
+    replicas.push_back(member->handle == kNoRobot
                            ? buildBall(world.id(), static_cast<float>(settings.ballRadius),
                                        static_cast<float>(settings.ballMass))
-                           : buildMechanism(world.id(), robotPlan(cell->robotType)));
+                           : buildMechanism(world.id(), robotPlan(member->robotType)));
   }
 }
 
-CommonWorld& CommonWorlds::forCells(std::span<Cell* const> cells, const WorldSettings& settings,
-                                    std::uint64_t cycle) {
-  const auto same = [&cells](const std::unique_ptr<CommonWorld>& common) {
-    return std::equal(cells.begin(), cells.end(), common->members.begin(), common->members.end(),
-                      [](const Cell* cell, RobotHandle member) { return cell->handle == member; });
+CommonWorld& CommonWorlds::forMembers(std::span<Multibody* const> members, const WorldSettings& settings,
+                                      std::uint64_t cycle) {
+  const auto same = [&members](const std::unique_ptr<CommonWorld>& common) {
+    return std::equal(members.begin(), members.end(), common->handles.begin(), common->handles.end(),
+                      [](const Multibody* member, RobotHandle handle) { return member->handle == handle; });
   };
   auto found = std::find_if(worlds_.begin(), worlds_.end(), same);
   if (found == worlds_.end()) {
@@ -112,16 +112,16 @@ CommonWorld& CommonWorlds::forCells(std::span<Cell* const> cells, const WorldSet
       });
       if ((*oldest)->lastUse < cycle) worlds_.erase(oldest);
     }
-    worlds_.push_back(std::make_unique<CommonWorld>(cells, settings));
+    worlds_.push_back(std::make_unique<CommonWorld>(members, settings));
     found = worlds_.end() - 1;
   }
   (*found)->lastUse = cycle;
   return **found;
 }
 
-void CommonWorlds::forget(RobotHandle member) {
-  std::erase_if(worlds_, [member](const auto& common) {
-    return std::find(common->members.begin(), common->members.end(), member) != common->members.end();
+void CommonWorlds::forget(RobotHandle handle) {
+  std::erase_if(worlds_, [handle](const auto& common) {
+    return std::find(common->handles.begin(), common->handles.end(), handle) != common->handles.end();
   });
 }
 
@@ -129,16 +129,16 @@ void watchBody(BodyNode& node) {
   watch(node.body, node);
 }
 
-void orderAsOde(Cluster& cluster) {
+void orderAsOde(Island& island) {
   BodyNode* start = nullptr;
-  for (Cell* cell : cluster.cells) {
-    for (BodyNode* node : cell->nodes) {
+  for (Multibody* member : island.members) {
+    for (BodyNode* node : member->nodes) {
       node->visited = false;
       if (dBodyIsEnabled(node->body) != 0) start = node;
     }
   }
   if (start == nullptr) return;
-  std::vector<BodyNode*>& stack = cluster.stack;
+  std::vector<BodyNode*>& stack = island.stack;
   const auto push = [&stack](BodyNode* node) {
     if (node == nullptr || node->visited) return;
     node->visited = true;
@@ -148,8 +148,8 @@ void orderAsOde(Cluster& cluster) {
   while (!stack.empty()) {
     BodyNode* node = stack.back();
     stack.pop_back();
-    cluster.moved.push_back(node);
-    for (auto contact = cluster.contacts.rbegin(); contact != cluster.contacts.rend(); ++contact) {
+    island.moved.push_back(node);
+    for (auto contact = island.contacts.rbegin(); contact != island.contacts.rend(); ++contact) {
       if ((*contact)->first->node == node) push((*contact)->second->node);
       if ((*contact)->second->node == node) push((*contact)->first->node);
     }
@@ -157,12 +157,12 @@ void orderAsOde(Cluster& cluster) {
   }
 }
 
-void stepExactly(Cluster& cluster, dReal seconds) {
-  if (!anyAwake(cluster)) return;
-  if (cluster.cells.size() == 1) {
-    stepAlone(cluster, seconds);
+void stepExactly(Island& island, dReal seconds) {
+  if (!anyAwake(island)) return;
+  if (island.members.size() == 1) {
+    stepAlone(island, seconds);
   } else {
-    stepTogether(cluster, seconds);
+    stepTogether(island, seconds);
   }
 }
 

@@ -1,4 +1,5 @@
-// Which robots (and the ball) are stepped together in a cycle, and the ODE worlds in which that happens.
+// Islands: robots (and the ball) that touch each other are stepped together in a cycle, others apart. And the
+// ODE worlds in which that happens.
 #pragma once
 
 #include <memory>
@@ -13,27 +14,27 @@ namespace nonet::sim {
 
 struct BodyNode;
 struct Collider;
-struct Cluster;
-struct QuickCell;
+struct Island;
+struct QuickState;
 
-/// A robot or the ball, in an ODE world of its own.
-struct Cell {
-  Cell();
-  ~Cell();
-  Cell(const Cell&) = delete;
-  Cell& operator=(const Cell&) = delete;
+/// The bodies and joints of a robot, or the ball alone, in an ODE world of their own.
+struct Multibody {
+  Multibody();
+  ~Multibody();
+  Multibody(const Multibody&) = delete;
+  Multibody& operator=(const Multibody&) = delete;
 
   OdeWorld world;
   Mechanism mechanism;
   std::vector<BodyNode*> nodes;   // of the mechanism's bodies
   RobotHandle handle = kNoRobot;  // kNoRobot: the ball
   int robotType = -1;
-  std::unique_ptr<QuickCell> quick;  // for the quick stepper, made when first needed
+  std::unique_ptr<QuickState> quick;  // for the quick stepper, made when first needed
 
   // In this cycle:
-  std::size_t rank = 0;        // place in the order of creation
-  Cluster* cluster = nullptr;  // to which it belongs
-  std::size_t place = 0;       // in the cluster
+  std::size_t rank = 0;      // place in the order of creation
+  Island* island = nullptr;  // to which it belongs
+  std::size_t place = 0;     // among the members of the island
 };
 
 /// A contact point, kept until the step.
@@ -46,9 +47,9 @@ struct PendingContact {
 
 /// A world that holds replicas of several robots (and perhaps the ball).
 struct CommonWorld {
-  CommonWorld(std::span<Cell* const> cells, const WorldSettings& settings);
+  CommonWorld(std::span<Multibody* const> members, const WorldSettings& settings);
 
-  std::vector<RobotHandle> members;
+  std::vector<RobotHandle> handles;  // of the members
   std::vector<Mechanism> replicas;
   OdeWorld world;
   std::uint64_t lastUse = 0;
@@ -57,31 +58,32 @@ struct CommonWorld {
 /// Common worlds are kept for a while: robots that touch often do so for many cycles.
 class CommonWorlds {
  public:
-  CommonWorld& forCells(std::span<Cell* const> cells, const WorldSettings& settings, std::uint64_t cycle);
-  void forget(RobotHandle member);
+  CommonWorld& forMembers(std::span<Multibody* const> members, const WorldSettings& settings,
+                          std::uint64_t cycle);
+  void forget(RobotHandle handle);
   void clear() { worlds_.clear(); }
 
  private:
   std::vector<std::unique_ptr<CommonWorld>> worlds_;
 };
 
-/// Cells that touch each other, directly or by way of others.
-struct Cluster {
-  std::vector<Cell*> cells;               // in order of creation
+/// What touches each other, directly or by way of others.
+struct Island {
+  std::vector<Multibody*> members;        // in order of creation
   std::vector<PendingContact*> contacts;  // in order of creation
-  CommonWorld* common = nullptr;          // for more than one cell
+  CommonWorld* common = nullptr;          // for more than one member
   std::vector<BodyNode*> stack;           // scratch
   std::vector<BodyNode*> moved;           // by the step, in ODE's order
 };
 
-/// Has ODE report each body that it moves to the cluster.
+/// Has ODE report each body that it moves to the island.
 void watchBody(BodyNode& node);
 
 /// Fills `moved` with all bodies in the order in which ODE would step them: from the newest body that is
 /// awake along joints and contacts, the newest ones first. For steppers other than ODE's.
-void orderAsOde(Cluster& cluster);
+void orderAsOde(Island& island);
 
-/// Steps one cluster with ODE's exact stepper. Nothing is touched but its cells.
-void stepExactly(Cluster& cluster, dReal seconds);
+/// Steps one island with ODE's exact stepper. Nothing is touched but its members.
+void stepExactly(Island& island, dReal seconds);
 
 }  // namespace nonet::sim

@@ -6,6 +6,7 @@
 
 #include "nonet/math/angle.h"
 
+#include "sim/physics/ode_parameters.h"
 #include "sim/physics/scene.h"
 #include "sim/physics/workers.h"
 
@@ -149,18 +150,17 @@ void setMass(dBodyID body, const RobotPlan::Body& plan) {
   dBodySetMass(body, &mass);
 }
 
-// Server facts 2.4: parameters are 32-bit on their way to ODE.
 dJointID createJoint(dWorldID world, const RobotPlan::Joint& plan, dBodyID child, dBodyID parent) {
   const dJointID joint = dJointCreateHinge(world, nullptr);
   dJointAttach(joint, child, parent);
   dJointSetHingeAnchor(joint, plan.anchor.x(), plan.anchor.y(), plan.anchor.z());
   dJointSetHingeAxis(joint, plan.axis.x(), plan.axis.y(), plan.axis.z());
-  dJointSetHingeParam(joint, dParamFMax, 10.0F);
-  dJointSetHingeParam(joint, dParamCFM, 1e-8F);
-  dJointSetHingeParam(joint, dParamStopCFM, 1e-8F);
-  dJointSetHingeParam(joint, dParamStopERP, 0.8F);
-  dJointSetHingeParam(joint, dParamFudgeFactor, 1e-5F);
-  dJointSetHingeParam(joint, dParamBounce, 1.0F);
+  dJointSetHingeParam(joint, dParamFMax, kMotorTorque);
+  dJointSetHingeParam(joint, dParamCFM, kMotorCfm);
+  dJointSetHingeParam(joint, dParamStopCFM, kMotorCfm);
+  dJointSetHingeParam(joint, dParamStopERP, kStopErp);
+  dJointSetHingeParam(joint, dParamFudgeFactor, kMotorFudgeFactor);
+  dJointSetHingeParam(joint, dParamBounce, kStopBounce);
   dJointSetHingeParam(joint, dParamLoStop, plan.lowStop);
   dJointSetHingeParam(joint, dParamHiStop, plan.highStop);
   return joint;
@@ -183,11 +183,10 @@ OdeWorld::OdeWorld()
       contactJoints_(dJointGroupCreate(0)),
       threading_(dThreadingAllocateSelfThreadedImplementation()) {
   dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
-  // The values pass through 32-bit floats.
-  dWorldSetGravity(world_, 0.0, 0.0, -9.81F);
-  dWorldSetCFM(world_, 0.00001F);
+  dWorldSetGravity(world_, 0.0, 0.0, -kGravity);
+  dWorldSetCFM(world_, kWorldCfm);
   dWorldSetAutoDisableFlag(world_, 1);
-  dWorldSetContactSurfaceLayer(world_, 0.001F);
+  dWorldSetContactSurfaceLayer(world_, kSurfaceLayer);
 }
 
 OdeWorld::~OdeWorld() {

@@ -31,6 +31,25 @@ void take(std::span<const std::uint8_t>& in, T& value) {
   in = in.subspan(sizeof(T));
 }
 
+/// The next value. Names its type: `taken<int>(in)`.
+template <class T>
+T taken(std::span<const std::uint8_t>& in) {
+  T value{};
+  take(in, value);
+  return value;
+}
+
+template <class T>
+void putArray(std::vector<std::uint8_t>& out, const T* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) put(out, values[i]);
+}
+
+template <class T>
+void takeArray(std::span<const std::uint8_t>& in, T* values, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) take(in, values[i]);
+}
+
+/// With their number.
 template <class T>
 void putAll(std::vector<std::uint8_t>& out, const std::vector<T>& values) {
   put(out, values.size());

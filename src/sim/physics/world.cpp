@@ -75,7 +75,7 @@ float World::jointAngleDegrees(RobotHandle robot, model::JointId joint) const {
   const RobotNode& node = implementation_->robot(robot);
   const int i = node.jointIndex[index(joint)];
   if (i < 0) return 0.0F;
-  return static_cast<float>(node.cell.mechanism.angle(static_cast<std::size_t>(i)) * (180.0 / M_PI));
+  return static_cast<float>(node.multibody.mechanism.angle(static_cast<std::size_t>(i)) * (180.0 / M_PI));
 }
 float World::jointAngle(RobotHandle robot, model::JointId joint) const {
   return scene::toRadians(jointAngleDegrees(robot, joint));

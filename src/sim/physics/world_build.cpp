@@ -136,10 +136,11 @@ void World::Implementation::buildBall() {
   ball.collider.party.kind = ContactParty::Kind::Ball;
   ball.collider.surface = &kBallSurface;
   ball.collider.node = &ball;
-  ball.collider.cell = &ballCell;
-  ballCell.mechanism = sim::buildBall(ballCell.world.id(), radius, static_cast<float>(settings.ballMass));
-  ballCell.nodes = {&ball};
-  ball.body = ballCell.mechanism.bodies.front();
+  ball.collider.multibody = &ballMultibody;
+  ballMultibody.mechanism =
+      sim::buildBall(ballMultibody.world.id(), radius, static_cast<float>(settings.ballMass));
+  ballMultibody.nodes = {&ball};
+  ball.body = ballMultibody.mechanism.bodies.front();
   watchBody(ball);
   ball.geom = dCreateSphere(nullptr, radius);
   dGeomSetData(ball.geom, &ball.collider);
@@ -164,24 +165,24 @@ void World::Implementation::addRobotAs(RobotHandle handle, int type) {
   robot.jointIndex.fill(-1);
   robot.space = dHashSpaceCreate(space);
   dSpaceSetCleanup(robot.space, 0);
-  robot.cell.mechanism = buildMechanism(robot.cell.world.id(), plan);
-  robot.cell.robotType = type;
-  robot.cell.handle = handle;
+  robot.multibody.mechanism = buildMechanism(robot.multibody.world.id(), plan);
+  robot.multibody.robotType = type;
+  robot.multibody.handle = handle;
   robot.bodies.resize(plan.bodies.size());
   for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
     const RobotPlan::Body& part = plan.bodies[i];
     BodyNode& body = robot.bodies[i];
     robot.bodyIndex[index(part.id)] = static_cast<int>(i);
-    robot.cell.nodes.push_back(&body);
+    robot.multibody.nodes.push_back(&body);
     body.place = i;
     body.id = part.id;
     body.pose = part.pose;
-    body.body = robot.cell.mechanism.bodies[i];
+    body.body = robot.multibody.mechanism.bodies[i];
     watchBody(body);
     body.collider.party = {ContactParty::Kind::Robot, handle, part.id};
     body.collider.surface = &kRobotSurface;
     body.collider.node = &body;
-    body.collider.cell = &robot.cell;
+    body.collider.multibody = &robot.multibody;
     if (part.collider) {
       body.geom = createGeom(part);
       dGeomSetData(body.geom, &body.collider);
@@ -197,9 +198,9 @@ void World::Implementation::addRobotAs(RobotHandle handle, int type) {
       body.neighbours.push_back(&parent);
       parent.neighbours.push_back(&body);
       robot.jointIndex[index(part.joint->id)] = static_cast<int>(robot.joints.size());
-      robot.joints.push_back({part.joint->id, robot.cell.mechanism.joints[robot.joints.size()], body.body,
-                              part.id, part.joint->maxSpeed, part.joint->lowStop, part.joint->highStop,
-                              false});
+      robot.joints.push_back({part.joint->id, robot.multibody.mechanism.joints[robot.joints.size()],
+                              body.body, part.id, part.joint->maxSpeed, part.joint->lowStop,
+                              part.joint->highStop, false});
     }
   }
   handles.push_back(handle);

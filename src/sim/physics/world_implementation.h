@@ -12,7 +12,8 @@
 #include "nonet/sim/physics/world.h"
 
 #include "sim/physics/islands.h"
-#include "sim/physics/quick.h"
+#include "sim/physics/ode_parameters.h"
+#include "sim/physics/quick_stepper.h"
 #include "sim/physics/workers.h"
 
 namespace nonet::sim {
@@ -34,18 +35,15 @@ struct Surface {
 /// What ODE's geom data points to.
 struct Collider {
   ContactParty party;
-  BodyNode* node = nullptr;  // null: fixed
-  Cell* cell = nullptr;      // null: fixed
+  BodyNode* node = nullptr;        // null: fixed
+  Multibody* multibody = nullptr;  // null: fixed
   const Surface* surface = nullptr;
   World::Goal trigger = World::Goal::None;
   int footSensor = -1;  // index of the robot's foot sensor that hears about contacts of this geom
 };
 
-/// ODE's default number of idle steps before a body falls asleep.
-inline constexpr int kStepsUntilSleep = 10;
-
 struct BodyNode {
-  std::size_t place = 0;  // in its cell
+  std::size_t place = 0;  // in its multibody
   model::BodyId id = model::BodyId::Torso;
   dBodyID body = nullptr;
   dGeomID geom = nullptr;             // null: no collider
@@ -80,7 +78,7 @@ inline void setCountdown(BodyNode& node, int steps) {
 /// threads, geoms by one, in an order that does not depend on them.)
 inline void placeGeom(BodyNode& node) {
   node.moved = true;
-  node.collider.cell->mechanism.turned();
+  node.collider.multibody->mechanism.turned();
   if (node.geom == nullptr) return;
   const dReal* position = dBodyGetPosition(node.body);
   dGeomSetRotation(node.geom, dBodyGetRotation(node.body));
@@ -114,7 +112,7 @@ struct RobotNode {
   RobotHandle handle = kNoRobot;
   int type = 0;
   dSpaceID space = nullptr;
-  Cell cell;
+  Multibody multibody;
   std::vector<BodyNode> bodies;   // in creation order; never resized after building (geoms point into it)
   std::vector<JointNode> joints;  // in creation order
   std::array<int, model::kBodyCount> bodyIndex{};
@@ -168,7 +166,7 @@ struct World::Implementation {
   void collideGeoms(dGeomID first, dGeomID second);
   void addContacts(const Collider& first, const Collider& second, int count);
   void followSleep(BodyNode& node, bool attached) const;
-  void formClusters();
+  void formIslands();
   void listBySize();
   void placeMovedGeoms();
   void copyPoses();
@@ -188,7 +186,7 @@ struct World::Implementation {
   std::vector<std::unique_ptr<Collider>> fixtureColliders;
   bool fixturesMoved = true;
   BodyNode ball;
-  Cell ballCell;
+  Multibody ballMultibody;
   std::vector<std::unique_ptr<RobotNode>> robots;  // in order of creation
   std::vector<RobotHandle> handles;                // the same order
   RobotHandle nextHandle = 0;
@@ -204,12 +202,12 @@ struct World::Implementation {
   std::size_t pendingUsed = 0;
   std::deque<dJointFeedback> feedback;
   std::size_t feedbackUsed = 0;
-  std::vector<Cell*> cells;  // ball, then robots in order of creation
-  std::deque<Cluster> clusters;
-  std::size_t clustersUsed = 0;
-  std::vector<Cluster*> clustersBySize;  // those in use, the largest first
-  std::vector<Cluster*> movedClusters;
-  std::vector<std::size_t> leaders;  // per cell: the first cell of its cluster
+  std::vector<Multibody*> multibodies;  // ball, then robots in order of creation
+  std::deque<Island> islands;
+  std::size_t islandsUsed = 0;
+  std::vector<Island*> islandsBySize;  // those in use, the largest first
+  std::vector<Island*> movedIslands;
+  std::vector<std::size_t> leaders;  // per multibody: the first multibody of its island
 };
 
 }  // namespace nonet::sim

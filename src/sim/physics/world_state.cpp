@@ -1,14 +1,13 @@
 // Saving and restoring a world, bit by bit. Robots are built anew in their order of creation, then get their
 // state. ODE gives no setters for some of it:
 //  - quaternion and rotation matrix are written through the pointers ODE hands out (its setters normalise);
-//  - the steps left until auto-disable are followed here beside ODE (readSleep) and set by way of
-//  dBodyEnable;
+//  - the steps left until auto-disable are followed beside ODE (followSleep) and set by way of dBodyEnable;
 //  - the order of the geoms in their spaces, which decides the order of the contacts, and which of them ODE
 //    holds for moved, is rebuilt by removing and adding them.
-#include <cstring>
 #include <stdexcept>
-#include <type_traits>
 
+#include "sim/physics/hash.h"
+#include "sim/physics/state_bytes.h"
 #include "sim/physics/world_implementation.h"
 
 namespace nonet::sim {
@@ -17,110 +16,60 @@ namespace {
 
 constexpr std::uint32_t kFormat = 0x4E575231;  // "NWR1"
 
-class Writer {
- public:
-  template <typename T>
-  void put(const T& value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
-    data_.insert(data_.end(), bytes, bytes + sizeof(T));
-  }
-  template <typename T>
-  void put(const T* values, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) put(values[i]);
-  }
-  void put(const Vector3f& v) { put(v.data(), 3); }
-  void put(const ScenePose& pose) {
-    put(pose.rotation.data(), 9);
-    put(pose.position);
-  }
-  void put(const ContactParty& party) {
-    put(party.kind);
-    put(party.robot);
-    put(party.body);
-  }
-  std::vector<std::uint8_t> take() { return std::move(data_); }
+using Bytes = std::vector<std::uint8_t>;
+using Input = std::span<const std::uint8_t>;
 
- private:
-  std::vector<std::uint8_t> data_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> data) : data_(data) {}
-  template <typename T>
-  T get() {
-    if (data_.size() < sizeof(T)) throw std::runtime_error("saved world: cut off");
-    T value;
-    std::memcpy(&value, data_.data(), sizeof(T));
-    data_ = data_.subspan(sizeof(T));
-    return value;
-  }
-  template <typename T>
-  void get(T* values, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) values[i] = get<T>();
-  }
-  Vector3f vector() {
-    Vector3f v;
-    get(v.data(), 3);
-    return v;
-  }
-  ScenePose pose() {
-    ScenePose pose;
-    get(pose.rotation.data(), 9);
-    pose.position = vector();
-    return pose;
-  }
-  ContactParty party() {
-    ContactParty party;
-    party.kind = get<ContactParty::Kind>();
-    party.robot = get<RobotHandle>();
-    party.body = get<model::BodyId>();
-    return party;
-  }
-  bool atEnd() const { return data_.empty(); }
-
- private:
-  std::span<const std::uint8_t> data_;
-};
-
-void saveBody(Writer& out, const BodyNode& node) {
-  const dBodyID body = node.body;
-  out.put(dBodyGetPosition(body), 3);
-  out.put(dBodyGetQuaternion(body), 4);
-  out.put(dBodyGetRotation(body), 12);
-  out.put(dBodyGetLinearVel(body), 3);
-  out.put(dBodyGetAngularVel(body), 3);
-  out.put(dBodyGetForce(body), 3);
-  out.put(dBodyGetTorque(body), 3);
-  out.put(dBodyIsEnabled(body) != 0);
-  out.put(node.stepsUntilSleep);
-  out.put(node.moved);
-  out.put(node.pose);
+void putParty(Bytes& out, const ContactParty& party) {
+  put(out, party.kind);
+  put(out, party.robot);
+  put(out, party.body);
 }
 
-void restoreBody(Reader& in, BodyNode& node) {
+ContactParty takenParty(Input& in) {
+  ContactParty party;
+  take(in, party.kind);
+  take(in, party.robot);
+  take(in, party.body);
+  return party;
+}
+
+void saveBody(Bytes& out, const BodyNode& node) {
+  const dBodyID body = node.body;
+  putArray(out, dBodyGetPosition(body), 3);
+  putArray(out, dBodyGetQuaternion(body), 4);
+  putArray(out, dBodyGetRotation(body), 12);
+  putArray(out, dBodyGetLinearVel(body), 3);
+  putArray(out, dBodyGetAngularVel(body), 3);
+  putArray(out, dBodyGetForce(body), 3);
+  putArray(out, dBodyGetTorque(body), 3);
+  put(out, dBodyIsEnabled(body) != 0);
+  put(out, node.stepsUntilSleep);
+  put(out, node.moved);
+  put(out, node.pose);
+}
+
+void restoreBody(Input& in, BodyNode& node) {
   const dBodyID body = node.body;
   dReal v[4];
-  in.get(v, 3);
+  takeArray(in, v, 3);
   dBodySetPosition(body, v[0], v[1], v[2]);
-  in.get(const_cast<dReal*>(dBodyGetQuaternion(body)), 4);
-  in.get(const_cast<dReal*>(dBodyGetRotation(body)), 12);
-  in.get(v, 3);
+  takeArray(in, const_cast<dReal*>(dBodyGetQuaternion(body)), 4);
+  takeArray(in, const_cast<dReal*>(dBodyGetRotation(body)), 12);
+  takeArray(in, v, 3);
   dBodySetLinearVel(body, v[0], v[1], v[2]);
-  in.get(v, 3);
+  takeArray(in, v, 3);
   dBodySetAngularVel(body, v[0], v[1], v[2]);
-  in.get(v, 3);
+  takeArray(in, v, 3);
   dBodySetForce(body, v[0], v[1], v[2]);
-  in.get(v, 3);
+  takeArray(in, v, 3);
   dBodySetTorque(body, v[0], v[1], v[2]);
-  const bool enabled = in.get<bool>();
-  setCountdown(node, in.get<int>());
+  const bool enabled = taken<bool>(in);
+  setCountdown(node, taken<int>(in));
   if (!enabled) dBodyDisable(body);
-  const bool moved = in.get<bool>();
+  const bool moved = taken<bool>(in);
   placeGeom(node);
   node.moved = moved;
-  node.pose = in.pose();
+  node.pose = taken<ScenePose>(in);
 }
 
 /// Puts the geoms into the space so that its list reads as in `order`, the moved ones before the others.
@@ -146,45 +95,45 @@ bool anyMoved(const RobotNode& robot) {
   return false;
 }
 
-void saveRobot(Writer& out, const RobotNode& robot) {
-  out.put(robot.handle);
-  out.put(robot.type);
+void saveRobot(Bytes& out, const RobotNode& robot) {
+  put(out, robot.handle);
+  put(out, robot.type);
   for (const BodyNode& body : robot.bodies) saveBody(out, body);
   for (const JointNode& joint : robot.joints) {
-    out.put(dJointGetHingeParam(joint.joint, dParamVel));
-    out.put(joint.frozen);
+    put(out, dJointGetHingeParam(joint.joint, dParamVel));
+    put(out, joint.frozen);
   }
-  out.put(robot.lastVelocity);
-  out.put(robot.acceleration);
+  put(out, robot.lastVelocity);
+  put(out, robot.acceleration);
   for (const FootSensor& foot : robot.feet) {
-    out.put(foot.inContact);
-    out.put(foot.last.center);
-    out.put(foot.last.force);
+    put(out, foot.inContact);
+    put(out, foot.last.center);
+    put(out, foot.last.force);
   }
   const int geoms = dSpaceGetNumGeoms(robot.space);
-  out.put(geoms);
+  put(out, geoms);
   for (int i = 0; i < geoms; ++i) {
-    out.put(static_cast<const Collider*>(dGeomGetData(dSpaceGetGeom(robot.space, i)))->party.body);
+    put(out, static_cast<const Collider*>(dGeomGetData(dSpaceGetGeom(robot.space, i)))->party.body);
   }
 }
 
-void restoreRobot(Reader& in, RobotNode& robot) {
+void restoreRobot(Input& in, RobotNode& robot) {
   for (BodyNode& body : robot.bodies) restoreBody(in, body);
   for (JointNode& joint : robot.joints) {
-    dJointSetHingeParam(joint.joint, dParamVel, in.get<dReal>());
-    joint.frozen = in.get<bool>();
+    dJointSetHingeParam(joint.joint, dParamVel, taken<dReal>(in));
+    joint.frozen = taken<bool>(in);
   }
-  robot.lastVelocity = in.vector();
-  robot.acceleration = in.vector();
+  robot.lastVelocity = taken<Vector3f>(in);
+  robot.acceleration = taken<Vector3f>(in);
   for (FootSensor& foot : robot.feet) {
-    foot.inContact = in.get<bool>();
-    foot.last.center = in.vector();
-    foot.last.force = in.vector();
+    foot.inContact = taken<bool>(in);
+    foot.last.center = taken<Vector3f>(in);
+    foot.last.force = taken<Vector3f>(in);
   }
-  std::vector<dGeomID> order(static_cast<std::size_t>(in.get<int>()));
+  std::vector<dGeomID> order(static_cast<std::size_t>(taken<int>(in)));
   std::vector<bool> moved(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const BodyNode& body = robot.body(in.get<model::BodyId>());
+    const BodyNode& body = robot.body(taken<model::BodyId>(in));
     order[i] = body.geom;
     moved[i] = body.moved;
   }
@@ -200,64 +149,64 @@ constexpr int kFirstFixture = 1'000'000;
 }  // namespace
 
 std::vector<std::uint8_t> World::Implementation::save() const {
-  Writer out;
-  out.put(kFormat);
-  out.put(cycles);
-  out.put(nextHandle);
-  out.put(ballInGoal);
-  out.put(fixturesMoved);
+  Bytes out;
+  put(out, kFormat);
+  put(out, cycles);
+  put(out, nextHandle);
+  put(out, ballInGoal);
+  put(out, fixturesMoved);
   saveBody(out, ball);
-  out.put(robots.size());
+  put(out, robots.size());
   for (const auto& robot : robots) saveRobot(out, *robot);
-  out.put(contacts.size());
+  put(out, contacts.size());
   for (const ContactPair& pair : contacts) {
-    out.put(pair.first);
-    out.put(pair.second);
-    out.put(pair.pointCount);
-    out.put(pair.meanPosition);
+    putParty(out, pair.first);
+    putParty(out, pair.second);
+    put(out, pair.pointCount);
+    put(out, pair.meanPosition);
   }
   const int members = dSpaceGetNumGeoms(space);
-  out.put(members);
-  for (int i = 0; i < members; ++i) out.put(memberNumber(dSpaceGetGeom(space, i)));
-  return out.take();
+  put(out, members);
+  for (int i = 0; i < members; ++i) put(out, memberNumber(dSpaceGetGeom(space, i)));
+  return out;
 }
 
 void World::Implementation::restore(std::span<const std::uint8_t> state) {
-  Reader in(state);
-  if (in.get<std::uint32_t>() != kFormat) throw std::runtime_error("saved world: unknown format");
+  Input in = state;
+  if (taken<std::uint32_t>(in) != kFormat) throw std::runtime_error("saved world: unknown format");
   for (const auto& robot : robots) destroyRobot(*robot);
   robots.clear();
   commonWorlds.clear();
   handles.clear();
-  cycles = in.get<std::uint64_t>();
-  nextHandle = in.get<RobotHandle>();
-  ballInGoal = in.get<Goal>();
-  fixturesMoved = in.get<bool>();
+  cycles = taken<std::uint64_t>(in);
+  nextHandle = taken<RobotHandle>(in);
+  ballInGoal = taken<Goal>(in);
+  fixturesMoved = taken<bool>(in);
   restoreBody(in, ball);
-  const auto robotCount = in.get<std::size_t>();
+  const auto robotCount = taken<std::size_t>(in);
   for (std::size_t i = 0; i < robotCount; ++i) {
-    const auto handle = in.get<RobotHandle>();
-    addRobotAs(handle, in.get<int>());
+    const auto handle = taken<RobotHandle>(in);
+    addRobotAs(handle, taken<int>(in));
     restoreRobot(in, *robots.back());
   }
-  contacts.resize(in.get<std::size_t>());
+  contacts.resize(taken<std::size_t>(in));
   for (ContactPair& pair : contacts) {
-    pair.first = in.party();
-    pair.second = in.party();
-    pair.pointCount = in.get<int>();
-    pair.meanPosition = in.vector();
+    pair.first = takenParty(in);
+    pair.second = takenParty(in);
+    pair.pointCount = taken<int>(in);
+    pair.meanPosition = taken<Vector3f>(in);
   }
-  std::vector<dGeomID> order(static_cast<std::size_t>(in.get<int>()));
+  std::vector<dGeomID> order(static_cast<std::size_t>(taken<int>(in)));
   std::vector<bool> moved(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const int number = in.get<int>();
+    const int number = taken<int>(in);
     order[i] = memberGeom(number);
     moved[i] = fixturesMoved;
     if (number == kBallMember) moved[i] = ball.moved;
     if (number >= 0 && number < kFirstFixture) moved[i] = anyMoved(robot(number));
   }
   refillSpace(space, order, moved);
-  if (!in.atEnd()) throw std::runtime_error("saved world: data after its end");
+  if (!in.empty()) throw std::runtime_error("saved world: data after its end");
 }
 
 int World::Implementation::memberNumber(dGeomID geom) const {
@@ -282,13 +231,9 @@ dGeomID World::Implementation::memberGeom(int number) {
 }
 
 std::uint64_t World::signature() const {
-  std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a over the bytes of the doubles
-  const auto add = [&hash](const dReal* values, int count) {
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(values);
-    for (std::size_t i = 0; i < count * sizeof(dReal); ++i) {
-      hash ^= bytes[i];
-      hash *= 1099511628211ULL;
-    }
+  Hash hash;
+  const auto add = [&hash](const dReal* values, std::size_t count) {
+    hash.add({reinterpret_cast<const std::uint8_t*>(values), count * sizeof(dReal)});
   };
   const auto addBody = [&add](dBodyID body) {
     add(dBodyGetPosition(body), 3);
@@ -300,7 +245,7 @@ std::uint64_t World::signature() const {
   for (const auto& robot : implementation_->robots) {
     for (const BodyNode& body : robot->bodies) addBody(body.body);
   }
-  return hash;
+  return hash.value();
 }
 
 }  // namespace nonet::sim

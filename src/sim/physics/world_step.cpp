@@ -1,6 +1,7 @@
 // One cycle of the physics: drag and sensor sampling, collision, ODE's step, poses back to the scene.
 #include <algorithm>
 
+#include "sim/physics/ode_parameters.h"
 #include "sim/physics/scene.h"
 #include "sim/physics/world_implementation.h"
 
@@ -12,7 +13,7 @@ constexpr float kStep = 0.02F;  // s; 32-bit as the server passes it to ODE
 constexpr float kLinearDrag = 0.01F;
 constexpr float kRobotAngularDrag = 0.01F;
 constexpr float kBallAngularDrag = 0.00005F;
-const Vector3f kGravityVector{0.0F, 0.0F, -9.81F};
+const Vector3f kGravityVector{0.0F, 0.0F, -kGravity};
 
 Vector3f resistance(const Vector3f& velocity, float drag) {
   return (velocity * drag) * -1.0F;
@@ -140,15 +141,15 @@ void World::Implementation::stepPhysics(const SharedWork& alongside) {
   dSpaceCollide(space, this, [](void* self, dGeomID a, dGeomID b) {
     static_cast<Implementation*>(self)->collideGeoms(a, b);
   });
-  formClusters();
+  formIslands();
   listBySize();
-  workers.run(clustersUsed + alongside.count, [this, &alongside](std::size_t i) {
-    if (i >= clustersUsed) {
-      alongside.piece(i - clustersUsed);
+  workers.run(islandsUsed + alongside.count, [this, &alongside](std::size_t i) {
+    if (i >= islandsUsed) {
+      alongside.piece(i - islandsUsed);
     } else if (settings.solver == WorldSettings::Solver::Exact) {
-      stepExactly(*clustersBySize[i], kStep);
+      stepExactly(*islandsBySize[i], kStep);
     } else {
-      stepQuickly(*clustersBySize[i], kStep);
+      stepQuickly(*islandsBySize[i], kStep);
     }
   });
   placeMovedGeoms();
@@ -170,13 +171,13 @@ void World::Implementation::followSleep(BodyNode& node, bool attached) const {
   node.stepsUntilSleep = idle ? std::max(0, node.stepsUntilSleep - 1) : kStepsUntilSleep;
 }
 
-// Cells are joined by the contacts between them (union-find; the first cell of a cluster leads it).
-void World::Implementation::formClusters() {
-  cells.assign(1, &ballCell);
-  for (const auto& robot : robots) cells.push_back(&robot->cell);
-  leaders.resize(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    cells[i]->rank = i;
+// Contacts join robots and ball to islands (union-find; the first member of an island leads it).
+void World::Implementation::formIslands() {
+  multibodies.assign(1, &ballMultibody);
+  for (const auto& robot : robots) multibodies.push_back(&robot->multibody);
+  leaders.resize(multibodies.size());
+  for (std::size_t i = 0; i < multibodies.size(); ++i) {
+    multibodies[i]->rank = i;
     leaders[i] = i;
   }
   const auto leaderOf = [this](std::size_t i) {
@@ -185,9 +186,9 @@ void World::Implementation::formClusters() {
   };
   bool ballTouches = false;
   for (std::size_t i = 0; i < pendingUsed; ++i) {
-    const Cell* first = pendingContacts[i].first->cell;
-    const Cell* second = pendingContacts[i].second->cell;
-    ballTouches = ballTouches || first == &ballCell || second == &ballCell;
+    const Multibody* first = pendingContacts[i].first->multibody;
+    const Multibody* second = pendingContacts[i].second->multibody;
+    ballTouches = ballTouches || first == &ballMultibody || second == &ballMultibody;
     if (first == nullptr || second == nullptr) continue;
     const std::size_t a = leaderOf(first->rank);
     const std::size_t b = leaderOf(second->rank);
@@ -197,47 +198,48 @@ void World::Implementation::formClusters() {
   for (const auto& robot : robots) {
     for (BodyNode& body : robot->bodies) followSleep(body, true);
   }
-  clustersUsed = 0;
-  for (Cell* cell : cells) {
-    const std::size_t leader = leaderOf(cell->rank);
-    if (leader == cell->rank) {
-      if (clustersUsed == clusters.size()) clusters.emplace_back();
-      Cluster& fresh = clusters[clustersUsed++];
-      fresh.cells.clear();
+  islandsUsed = 0;
+  for (Multibody* multibody : multibodies) {
+    const std::size_t leader = leaderOf(multibody->rank);
+    if (leader == multibody->rank) {
+      if (islandsUsed == islands.size()) islands.emplace_back();
+      Island& fresh = islands[islandsUsed++];
+      fresh.members.clear();
       fresh.contacts.clear();
       fresh.moved.clear();
       fresh.common = nullptr;
-      cell->cluster = &fresh;
+      multibody->island = &fresh;
     } else {
-      cell->cluster = cells[leader]->cluster;
+      multibody->island = multibodies[leader]->island;
     }
-    cell->place = cell->cluster->cells.size();
-    cell->cluster->cells.push_back(cell);
+    multibody->place = multibody->island->members.size();
+    multibody->island->members.push_back(multibody);
   }
   for (std::size_t i = 0; i < pendingUsed; ++i) {
     PendingContact& pending = pendingContacts[i];
-    const Cell* cell = pending.first->cell != nullptr ? pending.first->cell : pending.second->cell;
-    cell->cluster->contacts.push_back(&pending);
+    const Multibody* multibody =
+        pending.first->multibody != nullptr ? pending.first->multibody : pending.second->multibody;
+    multibody->island->contacts.push_back(&pending);
   }
   if (settings.solver != WorldSettings::Solver::Exact) return;
-  for (std::size_t i = 0; i < clustersUsed; ++i) {
-    Cluster& cluster = clusters[i];
-    if (cluster.cells.size() > 1) cluster.common = &commonWorlds.forCells(cluster.cells, settings, cycles);
+  for (std::size_t i = 0; i < islandsUsed; ++i) {
+    Island& island = islands[i];
+    if (island.members.size() > 1) island.common = &commonWorlds.forMembers(island.members, settings, cycles);
   }
 }
 
-// The work of a cluster grows with the cube of its constraints: begun last, the largest one would keep the
+// The work of an island grows with the cube of its constraints: begun last, the largest one would keep the
 // other threads waiting.
 void World::Implementation::listBySize() {
-  clustersBySize.clear();
-  for (std::size_t i = 0; i < clustersUsed; ++i) clustersBySize.push_back(&clusters[i]);
-  std::sort(clustersBySize.begin(), clustersBySize.end(), [](const Cluster* a, const Cluster* b) {
-    if (a->cells.size() != b->cells.size()) return a->cells.size() > b->cells.size();
+  islandsBySize.clear();
+  for (std::size_t i = 0; i < islandsUsed; ++i) islandsBySize.push_back(&islands[i]);
+  std::sort(islandsBySize.begin(), islandsBySize.end(), [](const Island* a, const Island* b) {
+    if (a->members.size() != b->members.size()) return a->members.size() > b->members.size();
     return a->contacts.size() > b->contacts.size();
   });
 }
 
-// In one ODE world for all, the newest bodies would come first, cluster by cluster. The order of these moves
+// In one ODE world for all, the newest bodies would come first, island by island. The order of these moves
 // is the order in which the next collision finds the contacts.
 void World::Implementation::placeMovedGeoms() {
   fixturesMoved = false;
@@ -245,15 +247,15 @@ void World::Implementation::placeMovedGeoms() {
   for (const auto& robot : robots) {
     for (BodyNode& body : robot->bodies) body.moved = false;
   }
-  movedClusters.clear();
-  for (std::size_t i = 0; i < clustersUsed; ++i) {
-    if (!clusters[i].moved.empty()) movedClusters.push_back(&clusters[i]);
+  movedIslands.clear();
+  for (std::size_t i = 0; i < islandsUsed; ++i) {
+    if (!islands[i].moved.empty()) movedIslands.push_back(&islands[i]);
   }
-  std::sort(movedClusters.begin(), movedClusters.end(), [](const Cluster* a, const Cluster* b) {
-    return a->moved.front()->collider.cell->rank > b->moved.front()->collider.cell->rank;
+  std::sort(movedIslands.begin(), movedIslands.end(), [](const Island* a, const Island* b) {
+    return a->moved.front()->collider.multibody->rank > b->moved.front()->collider.multibody->rank;
   });
-  for (const Cluster* cluster : movedClusters) {
-    for (BodyNode* node : cluster->moved) placeGeom(*node);
+  for (const Island* island : movedIslands) {
+    for (BodyNode* node : island->moved) placeGeom(*node);
   }
 }
 

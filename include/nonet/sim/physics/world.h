@@ -34,7 +34,7 @@ inline constexpr RobotHandle kNoRobot = -1;
 
 struct WorldSettings {
   /// Exact: ODE's dWorldStep, the real server's bits. Quick: the same equations solved along the robots'
-  /// joints (physics/tree.h), five times faster; it differs from Exact by rounding (1e-9 m in a step), which
+  /// joints (articulated_body_solver.h), five times faster; it differs from Exact by rounding (1e-9 m in a step), which
   /// only chaos makes visible, after seconds of walking or in a pile of robots.
   enum class Solver : std::uint8_t { Exact, Quick };
   Solver solver = Solver::Exact;

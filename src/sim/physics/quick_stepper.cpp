@@ -1,4 +1,4 @@
-#include "sim/physics/quick.h"
+#include "sim/physics/quick_stepper.h"
 
 #include <algorithm>
 #include <array>
@@ -19,29 +19,26 @@ using Eigen::VectorXd;
 
 constexpr int kBlockRounds = 12;  // rounds in which all wrong states are changed at once
 constexpr int kMaxRounds = 200;   // then one by one
-const double kWorldCfm = 0.00001F;
-constexpr double kWorldErp = 0.2;
-const double kSurfaceLayer = 0.001F;
 
 /// One contact: its normal and two friction directions.
 struct ContactRows {
   struct Side {
-    Cell* cell = nullptr;   // null: fixed
-    std::size_t body = 0;   // in the cell
-    std::size_t touch = 0;  // in the cell's list of touched bodies
-    std::array<Vector6, 3> rows;
+    Multibody* multibody = nullptr;  // null: fixed
+    std::size_t body = 0;            // in the multibody
+    std::size_t touch = 0;           // in the multibody's list of touched bodies
+    std::array<Vector6, 3> rows;     // unit impulses on the body's centre
   };
   std::array<Side, 2> sides;
   std::array<Vector3d, 3> directions;
-  std::array<double, 3> wanted{};
-  std::array<double, 3> compliance{};
+  std::array<double, 3> targetSpeed{};  // m/s
+  std::array<double, 3> compliance{};   // m/s per N s
   PendingContact* pending = nullptr;
 };
 
-bool putIdleToSleep(Cluster& cluster) {
+bool putIdleToSleep(Island& island) {
   bool awake = false;
-  for (Cell* cell : cluster.cells) {
-    for (BodyNode* node : cell->nodes) {
+  for (Multibody* member : island.members) {
+    for (BodyNode* node : member->nodes) {
       if (dBodyIsEnabled(node->body) == 0) continue;
       if (node->stepsUntilSleep > 0) {
         awake = true;
@@ -55,28 +52,24 @@ bool putIdleToSleep(Cluster& cluster) {
   return awake;
 }
 
-Vector3d vectorOf(const dReal* v) {
-  return {v[0], v[1], v[2]};
-}
-
 ContactRows::Side sideOf(const Collider* collider, const Vector3d& point,
                          const std::array<Vector3d, 3>& directions, double sign) {
   ContactRows::Side side;
   if (collider->node == nullptr) return side;
-  side.cell = collider->cell;
+  side.multibody = collider->multibody;
   side.body = collider->node->place;
-  std::vector<std::size_t>& touched = side.cell->quick->touched;
+  std::vector<std::size_t>& touched = side.multibody->quick->touched;
   side.touch =
       static_cast<std::size_t>(std::find(touched.begin(), touched.end(), side.body) - touched.begin());
   if (side.touch == touched.size()) touched.push_back(side.body);
   const Vector3d arm = point - vectorOf(dBodyGetPosition(collider->node->body));
-  for (std::size_t i = 0; i < 3; ++i) side.rows[i] = sign * rowAt(arm, directions[i]);
+  for (std::size_t i = 0; i < 3; ++i) side.rows[i] = sign * unitImpulse(arm, directions[i]);
   return side;
 }
 
 double speedAlong(const ContactRows::Side& side) {
-  if (side.cell == nullptr) return 0.0;
-  const dBodyID body = side.cell->nodes[side.body]->body;
+  if (side.multibody == nullptr) return 0.0;
+  const dBodyID body = side.multibody->nodes[side.body]->body;
   return side.rows[0].head<3>().dot(vectorOf(dBodyGetLinearVel(body))) +
          side.rows[0].tail<3>().dot(vectorOf(dBodyGetAngularVel(body)));
 }
@@ -100,21 +93,24 @@ ContactRows rowsFor(PendingContact& pending, double seconds) {
     const double incoming = -(speedAlong(rows.sides[0]) + speedAlong(rows.sides[1]));
     if (incoming > surface.bounce_vel) speed = std::max(speed, surface.bounce * incoming);
   }
-  rows.wanted[0] = speed;
+  rows.targetSpeed[0] = speed;
   const double cfm = (surface.mode & dContactSoftCFM) != 0 ? surface.soft_cfm : kWorldCfm;
   const double slip = (surface.mode & dContactSlip1) != 0 ? surface.slip1 : kWorldCfm;
   rows.compliance = {cfm / seconds, slip / seconds, slip / seconds};
   return rows;
 }
 
-/// The contacts of a cluster: W x - b = w with x >= 0, w >= 0, x w = 0 for normals, w = 0 for friction (which
-/// is unlimited here, so that it does not depend on the normal force).
+/// The contacts of an island. Wanted are the impulses x and the speeds w left over the target speeds, with
+///     W x - b = w,
+/// x >= 0, w >= 0 and x w = 0 for normals, w = 0 for friction (which is unlimited here, so that it does not
+/// depend on the normal force). W is the Delassus matrix: what a unit impulse along one row does to the
+/// speeds of all rows. b is the target speeds less the speeds without contacts.
 class ContactProblem {
  public:
-  ContactProblem(Cluster& cluster, double seconds) {
-    for (PendingContact* pending : cluster.contacts) contacts_.push_back(rowsFor(*pending, seconds));
+  ContactProblem(Island& island, double seconds) {
+    for (PendingContact* pending : island.contacts) contacts_.push_back(rowsFor(*pending, seconds));
     const auto size = static_cast<Eigen::Index>(3 * contacts_.size());
-    matrix_.resize(size, size);
+    delassus_.resize(size, size);
     right_.resize(size);
     impulses_.resize(size);
     active_.assign(contacts_.size(), true);
@@ -122,23 +118,23 @@ class ContactProblem {
 
   bool empty() const { return contacts_.empty(); }
 
-  /// For the present factors of the trees and their solution without contacts.
+  /// For the present inertias and the solution without contacts.
   void solve() {
     assemble();
     std::fill(active_.begin(), active_.end(), true);
     for (int round = 0; round < kMaxRounds; ++round) {
       solveActive();
-      if (correct(round >= kBlockRounds) == 0) break;
+      if (correctNormals(round >= kBlockRounds) == 0) break;
     }
   }
 
-  /// Adds the contact impulses to the cells' lists.
+  /// Adds the contact impulses to the multibodies' lists.
   void addImpulses() const {
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       for (const ContactRows::Side& side : contacts_[c].sides) {
-        if (side.cell == nullptr) continue;
+        if (side.multibody == nullptr) continue;
         for (std::size_t i = 0; i < 3; ++i) {
-          side.cell->quick->impulses[side.body] += side.rows[i] * impulse(c, i);
+          side.multibody->quick->impulses[side.body] += side.rows[i] * impulse(c, i);
         }
       }
     }
@@ -164,15 +160,15 @@ class ContactProblem {
     for (std::size_t q = 0; q < contacts_.size(); ++q) {
       for (std::size_t j = 0; j < 3; ++j) {
         const Eigen::Index column = rowIndex(q, j);
-        matrix_.col(column).setZero();
+        delassus_.col(column).setZero();
         for (const ContactRows::Side& side : contacts_[q].sides) {
-          if (side.cell != nullptr) addColumn(side, j, column);
+          if (side.multibody != nullptr) addColumn(side, j, column);
         }
-        matrix_(column, column) += contacts_[q].compliance[j];
-        right_[column] = contacts_[q].wanted[j];
+        delassus_(column, column) += contacts_[q].compliance[j];
+        right_[column] = contacts_[q].targetSpeed[j];
         for (const ContactRows::Side& side : contacts_[q].sides) {
-          if (side.cell == nullptr) continue;
-          right_[column] -= side.rows[j].dot(side.cell->quick->tree.velocity(side.body));
+          if (side.multibody == nullptr) continue;
+          right_[column] -= side.rows[j].dot(side.multibody->quick->solver.velocity(side.body));
         }
       }
     }
@@ -180,7 +176,7 @@ class ContactProblem {
 
   /// What a unit impulse of this row does to all rows.
   void addColumn(const ContactRows::Side& pushed, std::size_t j, Eigen::Index column) {
-    const QuickCell& quick = *pushed.cell->quick;
+    const QuickState& quick = *pushed.multibody->quick;
     const std::size_t count = quick.touched.size();
     velocities_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -188,9 +184,9 @@ class ContactProblem {
     }
     for (std::size_t p = 0; p < contacts_.size(); ++p) {
       for (const ContactRows::Side& side : contacts_[p].sides) {
-        if (side.cell != pushed.cell) continue;
+        if (side.multibody != pushed.multibody) continue;
         for (std::size_t i = 0; i < 3; ++i) {
-          matrix_(rowIndex(p, i), column) += side.rows[i].dot(velocities_[side.touch]);
+          delassus_(rowIndex(p, i), column) += side.rows[i].dot(velocities_[side.touch]);
         }
       }
     }
@@ -209,7 +205,8 @@ class ContactProblem {
     for (Eigen::Index i = 0; i < size; ++i) {
       const Eigen::Index row = used_[static_cast<std::size_t>(i)];
       reducedRight_[i] = right_[row];
-      for (Eigen::Index j = 0; j <= i; ++j) reduced_(i, j) = matrix_(row, used_[static_cast<std::size_t>(j)]);
+      for (Eigen::Index j = 0; j <= i; ++j)
+        reduced_(i, j) = delassus_(row, used_[static_cast<std::size_t>(j)]);
     }
     factor_.compute(reduced_);
     factor_.solveInPlace(reducedRight_);
@@ -218,11 +215,12 @@ class ContactProblem {
   }
 
   /// Changes the state of normals that pull, and of open ones that would close further. Returns how many.
-  int correct(bool onlyFirst) {
+  int correctNormals(bool onlyFirst) {
     int wrong = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const Eigen::Index row = rowIndex(c, 0);
-      const bool right = active_[c] ? impulses_[row] >= 0.0 : matrix_.row(row).dot(impulses_) >= right_[row];
+      const bool right =
+          active_[c] ? impulses_[row] >= 0.0 : delassus_.row(row).dot(impulses_) >= right_[row];
       if (right) continue;
       ++wrong;
       if (!onlyFirst || wrong == 1) active_[c] = !active_[c];
@@ -232,7 +230,7 @@ class ContactProblem {
 
   std::vector<ContactRows> contacts_;
   std::vector<bool> active_;  // per contact: the normal presses
-  MatrixXd matrix_;
+  MatrixXd delassus_;
   VectorXd right_;
   VectorXd impulses_;
   // Scratch.
@@ -243,22 +241,22 @@ class ContactProblem {
   Eigen::LLT<MatrixXd> factor_;
 };
 
-void prepareResponses(QuickCell& quick) {
-  quick.tree.factor();
-  quick.tree.solve({});
+void prepareResponses(QuickState& quick) {
+  quick.solver.computeInertias();
+  quick.solver.solve({});
   const std::size_t count = quick.touched.size();
   quick.responses.resize(count * count);
   std::vector<Matrix6> column(count);
   for (std::size_t j = 0; j < count; ++j) {
-    quick.tree.respond(quick.touched[j], quick.touched, column);
+    quick.solver.respond(quick.touched[j], quick.touched, column);
     for (std::size_t i = 0; i < count; ++i) quick.responses[i * count + j] = column[i];
   }
 }
 
-void integrate(Cell& cell, double seconds) {
-  for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
-    const dBodyID body = cell.nodes[i]->body;
-    const Vector6& velocity = cell.quick->tree.velocity(i);
+void integrate(Multibody& multibody, double seconds) {
+  for (std::size_t i = 0; i < multibody.nodes.size(); ++i) {
+    const dBodyID body = multibody.nodes[i]->body;
+    const Vector6& velocity = multibody.quick->solver.velocity(i);
     dBodySetLinearVel(body, velocity[0], velocity[1], velocity[2]);
     dBodySetAngularVel(body, velocity[3], velocity[4], velocity[5]);
     const dReal* p = dBodyGetPosition(body);
@@ -280,31 +278,32 @@ void integrate(Cell& cell, double seconds) {
 
 }  // namespace
 
-void stepQuickly(Cluster& cluster, dReal seconds) {
-  if (!putIdleToSleep(cluster)) return;
-  orderAsOde(cluster);
-  for (Cell* cell : cluster.cells) {
-    if (cell->quick == nullptr) cell->quick = std::make_unique<QuickCell>(cell->robotType);
-    cell->quick->touched.clear();
-    cell->quick->tree.begin(cell->mechanism, seconds);
+void stepQuickly(Island& island, dReal seconds) {
+  if (!putIdleToSleep(island)) return;
+  orderAsOde(island);
+  for (Multibody* member : island.members) {
+    if (member->quick == nullptr) member->quick = std::make_unique<QuickState>(member->robotType);
+    member->quick->touched.clear();
+    member->quick->solver.setUp(member->mechanism, seconds);
   }
-  ContactProblem problem(cluster, seconds);
+  ContactProblem problem(island, seconds);
   for (int round = 0; round < kMaxRounds; ++round) {
-    for (Cell* cell : cluster.cells) prepareResponses(*cell->quick);
+    for (Multibody* member : island.members) prepareResponses(*member->quick);
     if (!problem.empty()) {
       problem.solve();
-      for (Cell* cell : cluster.cells) {
-        cell->quick->impulses.assign(cell->nodes.size(), Vector6::Zero());
+      for (Multibody* member : island.members) {
+        member->quick->impulses.assign(member->nodes.size(), Vector6::Zero());
       }
       problem.addImpulses();
-      for (Cell* cell : cluster.cells) cell->quick->tree.solve(cell->quick->impulses);
+      for (Multibody* member : island.members) member->quick->solver.solve(member->quick->impulses);
     }
     int wrong = 0;
-    for (Cell* cell : cluster.cells) wrong += cell->quick->tree.correctMotors(round >= kBlockRounds);
+    for (Multibody* member : island.members)
+      wrong += member->quick->solver.correctMotors(round >= kBlockRounds);
     if (wrong == 0) break;
   }
   problem.reportForces(seconds);
-  for (Cell* cell : cluster.cells) integrate(*cell, seconds);
+  for (Multibody* member : island.members) integrate(*member, seconds);
 }
 
 }  // namespace nonet::sim
