@@ -72,9 +72,10 @@ void findCandidates(std::array<Party, 2>& parties, const Vector3f& contact, cons
 
 }  // namespace
 
+// Step 3: what the contact means for the counters of both, and whose foul it is.
 void Fouls::judgeChargingPair(const Player& left, const Player& right, const Vector3f& contact,
-                              RuleTables& next) {
-  const RuleTables& t = c_.tables;
+                              RuleRecords& next) {
+  const RuleRecords& now = c_.records;
   const Settings& s = c_.settings;
   const Vector2f ball = c_.world.ballPosition().head<2>();
   std::array<Party, 2> parties;
@@ -82,12 +83,10 @@ void Fouls::judgeChargingPair(const Player& left, const Player& right, const Vec
   parties[1].player = &right;
   constexpr int kMovedRecently = 50;  // cycles
   for (Party& p : parties) {
-    const std::size_t side = index(p.player->side);
-    const int unum = p.player->unum;
-    if (t.notStanding[unum][side] != 0 || t.sinceMoved[unum][side] < kMovedRecently || c_.hasFoul(*p.player))
-      return;
+    const PlayerRecord& record = now.of(*p.player);
+    if (record.notStanding != 0 || record.sinceMoved < kMovedRecently || c_.hasFoul(*p.player)) return;
     p.position = c_.torso(*p.player).head<2>();
-    for (const Vector3f& sample : t.velocities[unum][side]) p.velocity += sample.head<2>();
+    for (const Vector3f& sample : record.velocities) p.velocity += sample.head<2>();
     p.velocity /= static_cast<float>(kVelocitySamples);
     p.speed = p.velocity.norm();
     p.ballDistance = (p.position - ball).norm();
@@ -99,45 +98,44 @@ void Fouls::judgeChargingPair(const Player& left, const Player& right, const Vec
   // The server looks at one goalkeeper only: two of them at home in one contact cannot be.
   findCandidates(parties, contact, s);
 
-  const double immunity = s.chargingImmunityTime / 0.02;
-  const auto touch = [](auto& tables, const Party& p) -> int& {
-    return tables.sinceBallTouch[p.player->unum][index(p.player->side)];
-  };
-  const auto timer = [](auto& tables, const Party& p) -> int& {
-    return tables.chargingTime[p.player->unum][index(p.player->side)];
-  };
-  RuleTables& now = c_.tables;
+  const double immunity = cycles(s.chargingImmunityTime);
   for (std::size_t i = 0; i < 2; ++i) {
     const Party& p = parties[i];
-    const Party& victim = parties[1 - i];
     if (!p.charging) continue;
+    const PlayerRecord& own = now.of(*p.player);
+    PlayerRecord& victim = next.of(*parties[1 - i].player);
     if (p.goalieAtHome) {
-      touch(next, victim) = 0;
-    } else if (touch(now, p) < immunity) {
-      touch(next, victim) = std::min(touch(next, victim), touch(now, p));
+      victim.sinceBallTouch = 0;
+    } else if (own.sinceBallTouch < immunity) {
+      victim.sinceBallTouch = std::min(victim.sinceBallTouch, own.sinceBallTouch);
     }
-    timer(next, victim) = std::min(timer(next, victim), timer(now, p));
+    victim.chargingTime = std::min(victim.chargingTime, own.chargingTime);
   }
   const bool atBall = (contact.head<2>() - ball).norm() < s.chargingMinCollBallDist;
-  if ((parties[0].charging && parties[1].charging) || atBall)
+  if ((parties[0].charging && parties[1].charging) || atBall) {
     parties[0].charging = parties[1].charging = false;
+  }
   for (const Party& p : parties) {
     if (s.keepaway && p.player->side == TeamSide::Right) continue;
-    if (!p.charging || p.goalieAtHome || timer(now, p) < s.chargingCollisionMinTime / 0.02 ||
-        touch(now, p) < immunity) {
+    const PlayerRecord& own = now.of(*p.player);
+    if (!p.charging || p.goalieAtHome || own.chargingTime < cycles(s.chargingCollisionMinTime) ||
+        own.sinceBallTouch < immunity) {
       continue;
     }
-    const std::size_t side = index(p.player->side);
-    next.foulTime[p.player->unum][side] = t.foulTime[p.player->unum][side] + 1;
-    next.lastFoul[p.player->unum][side] = FoulType::Charging;
+    PlayerRecord& guilty = next.of(*p.player);
+    guilty.foulTime = own.foulTime + 1;
+    guilty.lastFoul = FoulType::Charging;
   }
-  if (!parties[0].charging && !parties[1].charging) timer(next, parties[0]) = timer(next, parties[1]) = 0;
+  if (!parties[0].charging && !parties[1].charging) {
+    next.of(left).chargingTime = 0;
+    next.of(right).chargingTime = 0;
+  }
 }
 
 void Fouls::judgeCharging() {
   if (!c_.settings.useCharging) return;
-  // All pairs are judged by the counters of before this cycle.
-  RuleTables next = c_.tables;
+  // All pairs are judged by the records of before this cycle.
+  RuleRecords next = c_.records;
   for (const Player* left : c_.team(TeamSide::Left)) {
     for (const OpponentContact& contact : opponentContacts) {
       if (contact.leftUnum != left->unum) continue;
@@ -145,10 +143,7 @@ void Fouls::judgeCharging() {
       if (right != nullptr) judgeChargingPair(*left, *right, contact.meanPosition, next);
     }
   }
-  c_.tables.sinceBallTouch = next.sinceBallTouch;
-  c_.tables.chargingTime = next.chargingTime;
-  c_.tables.foulTime = next.foulTime;
-  c_.tables.lastFoul = next.lastFoul;
+  c_.records = next;
 }
 
 }  // namespace nonet::sim

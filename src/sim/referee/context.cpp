@@ -2,23 +2,10 @@
 
 namespace nonet::sim {
 
-RuleTables::RuleTables() {
-  for (int unum = 0; unum <= kMaxUnum; ++unum) {
-    for (int side = 0; side < 3; ++side) {
-      lastFoul[unum][side] = FoulType::None;
-      sinceMoved[unum][side] = 50;
-      lastSelfCollision[unum][side] = -1e5F;
-      jointFrozenAt[unum][side].fill(kNeverFrozen);
-      velocities[unum][side].fill(Vector3f::Zero());
-      ballDistance[unum][side] = 1000.0F;
-      goalDistance[unum][side] = 1000.0F;
-    }
-  }
-}
-
-bool RefereeContext::hasFoul(int unum, TeamSide side) const {
-  const FoulType foul = tables.lastFoul[unum][index(side)];
-  return foul != FoulType::None && (tables.foulTime[unum][index(side)] > 0 || foul == FoulType::Charging ||
+bool RefereeContext::hasFoul(TeamSide side, int unum) const {
+  const PlayerRecord& record = records.of(side, unum);
+  const FoulType foul = record.lastFoul;
+  return foul != FoulType::None && (record.foulTime > 0 || foul == FoulType::Charging ||
                                     foul == FoulType::Touching || foul == FoulType::SelfCollision);
 }
 

@@ -9,7 +9,7 @@
 namespace nonet::sim {
 
 void Placing::move(const Player& player, const Vector3f& target, Where where) {
-  c_.tables.sinceMoved[player.unum][index(player.side)] = 0;
+  c_.records.of(player).sinceMoved = 0;
   const Vector3f place =
       where == Where::Exactly ? target : safePosition(player, target, where == Where::Safely);
   c_.world.moveRobot(player.robot, place);
@@ -114,10 +114,9 @@ bool Placing::isFree(const Player& player, const Vector3f& position, bool avoidB
 }
 
 bool Placing::keepOutOfFullArea(const Vector2f& from, const Player& player, Vector2f& candidate) const {
-  const std::size_t side = index(player.side);
-  const RuleTables& t = c_.tables;
-  if (t.insideOwnArea[player.unum][side] ||
-      t.insideCount[side] + t.movedInside[side] < c_.settings.maxPlayersInsideOwnArea) {
+  const SideRecord& team = c_.records.of(player.side);
+  if (c_.records.of(player).insideOwnArea ||
+      team.insideCount + team.movedInside < c_.settings.maxPlayersInsideOwnArea) {
     return false;
   }
   const float margin = c_.agentRadius();
@@ -208,11 +207,10 @@ Vector3f Placing::safePosition(const Player& player, const Vector3f& target, boo
     failed();
     place = target;
   }
-  const std::size_t side = index(player.side);
   const bool inside = c_.ownArea(player.side).contains(place.head<2>());
-  const bool wasInside = c_.tables.insideOwnArea[player.unum][side];
-  if (!wasInside && inside) ++c_.tables.movedInside[side];
-  if (wasInside && !inside) --c_.tables.movedInside[side];
+  const bool wasInside = c_.records.of(player).insideOwnArea;
+  if (!wasInside && inside) ++c_.records.of(player.side).movedInside;
+  if (wasInside && !inside) --c_.records.of(player.side).movedInside;
   return place;
 }
 

@@ -246,10 +246,10 @@ bool Referee::requestPassMode(const Player& player) {
   if (game.time() - game.lastPassModeTime(player.side) < s.passModeRetryWaitTime) return false;
   if (c_.ball.touchedBy(player.side)) return false;
   if (c_.world.ballVelocity().norm() > s.passModeMaxBallSpeed) return false;
-  if (c_.tables.ballDistance[player.unum][index(player.side)] > s.passModeMaxBallDist) return false;
+  if (c_.records.of(player).ballDistance > s.passModeMaxBallDist) return false;
   if (horizontalDistance(c_.torso(player), ball) > s.passModeMaxBallDist) return false;
   for (int unum = 1; unum <= kMaxUnum; ++unum) {
-    if (c_.tables.ballDistance[unum][index(opponent)] < s.passModeMinOppBallDist) return false;
+    if (c_.records.of(opponent, unum).ballDistance < s.passModeMinOppBallDist) return false;
   }
   for (const Player* other : c_.team(opponent)) {
     if (horizontalDistance(c_.torso(*other), ball) < s.passModeMinOppBallDist) return false;
@@ -267,7 +267,7 @@ void Referee::save(std::vector<std::uint8_t>& out) const {
   put(out, c_.ball.lastToucher);
   put(out, c_.ball.lastTouchTime);
   putAll(out, c_.ball.touchers);
-  put(out, c_.tables);
+  put(out, c_.records);
   put(out, c_.random.state());
   putAll(out, c_.fouls);
   put(out, c_.nextTouchGroup);
@@ -283,7 +283,7 @@ void Referee::restore(std::span<const std::uint8_t>& in) {
   take(in, c_.ball.lastToucher);
   take(in, c_.ball.lastTouchTime);
   takeAll(in, c_.ball.touchers);
-  take(in, c_.tables);
+  take(in, c_.records);
   Random::State random{};
   take(in, random);
   c_.random.setState(random);

@@ -130,7 +130,6 @@ void Fouls::judgeSelfCollisions(TeamSide side) {
 void Fouls::selfCollision(const Player& player, BodyId first, BodyId second) {
   const Settings& s = c_.settings;
   const float now = c_.game.time();
-  const std::size_t side = index(player.side);
   const std::string who =
       fmt::format("Team {} Pl {}", std::string_view(c_.game.teamName(player.side)), player.unum);
   if (s.printSelfCollisions) {
@@ -142,18 +141,17 @@ void Fouls::selfCollision(const Player& player, BodyId first, BodyId second) {
   if (!s.foulOnSelfCollisions) return;
 
   if (s.selfCollisionBeamPenalty) {
-    float& last = c_.tables.lastSelfCollision[player.unum][side];
-    if (now - last <= s.selfCollisionBeamCooldownTime) return;
-    last = now;
-    ++c_.tables.foulTime[player.unum][side];
-    c_.tables.lastFoul[player.unum][side] = FoulType::SelfCollision;
+    PlayerRecord& record = c_.records.of(player);
+    if (now - record.lastSelfCollision <= s.selfCollisionBeamCooldownTime) return;
+    record.lastSelfCollision = now;
+    countFoul(record, FoulType::SelfCollision);
     writeSelfCollision(fmt::format("Foul {} GTime {}", who, now));
     return;
   }
   std::vector<JointId> joints;
   appendJoints(limbOf(first), joints);
   appendJoints(limbOf(second), joints);
-  auto& frozenAt = c_.tables.jointFrozenAt[player.unum][side];
+  auto& frozenAt = c_.records.of(player).jointFrozenAt;
   const float rest = static_cast<float>(s.selfCollisionJointFrozenTime + s.selfCollisionJointThawTime);
   const model::RobotModel& robot = model::robotModel(player.robotType);
   bool foul = false;
@@ -183,7 +181,7 @@ void Fouls::thawJoints(bool all) {
   const float frozen = static_cast<float>(s.selfCollisionJointFrozenTime);
   const float rest = static_cast<float>(s.selfCollisionJointFrozenTime + s.selfCollisionJointThawTime);
   for (const Player& player : c_.players) {
-    auto& frozenAt = c_.tables.jointFrozenAt[player.unum][index(player.side)];
+    auto& frozenAt = c_.records.of(player).jointFrozenAt;
     for (std::size_t i = 0; i < frozenAt.size(); ++i) {
       if (frozenAt[i] < 0.0F) continue;
       const float passed = c_.game.time() - frozenAt[i];

@@ -132,9 +132,7 @@ void Fouls::judgeTouchGroup(Player& player, TeamSide side) {
 }
 
 void Fouls::punishTouching(Player& player, const Vector3f& groupCenter) {
-  const std::size_t s = index(player.side);
-  ++c_.tables.foulTime[player.unum][s];
-  c_.tables.lastFoul[player.unum][s] = FoulType::Touching;
+  countFoul(c_.records.of(player), FoulType::Touching);
   if (c_.settings.touchingFoulBeamPenalty) return;
   Vector3f place = c_.sceneTorso(player);
   Vector2f away = place.head<2>() - groupCenter.head<2>();

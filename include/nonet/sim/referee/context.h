@@ -40,34 +40,57 @@ struct BallState {
 };
 
 inline constexpr int kVelocitySamples = 3;  // cycles over which charging averages velocities
-inline constexpr float kCyclesPerSecond = 50.0F;
 inline constexpr float kNeverFrozen = -1e30F;
 
-/// Counters of the foul rules, in cycles where nothing else is said. Indexed by uniform number and side: a
-/// number that changes hands keeps its counters, as in the server.
-struct RuleTables {
-  RuleTables();
+inline constexpr float kFar = 1000.0F;  // m, the distance of players who are not there
 
-  PlayerTable<int> ground{};       // torso below 0.15 m
-  PlayerTable<int> notStanding{};  // torso below 0.25 m
-  PlayerTable<int> standing{};
-  PlayerTable<bool> insideOwnArea{};
-  PlayerTable<bool> insideOwnAreaBefore{};
-  PlayerTable<int> foulTime{};
-  PlayerTable<FoulType> lastFoul{};
-  PlayerTable<int> sinceBallTouch{};
-  PlayerTable<int> chargingTime{};  // since the last contact that was nobody's charging
-  PlayerTable<int> sinceMoved{};    // by the referee
-  PlayerTable<std::array<Vector3f, kVelocitySamples>> velocities{};
-  PlayerTable<float> lastSelfCollision{};                              // game time, s
-  PlayerTable<std::array<float, model::kJointCount>> jointFrozenAt{};  // game time, s, or kNeverFrozen
-  PlayerTable<float> ballDistance{};  // m, 1000 for numbers that are not there
-  PlayerTable<int> ballRank{};
-  PlayerTable<float> goalDistance{};  // to the own goal, of those inside the own area
-  PlayerTable<int> goalRank{};
-  std::array<float, 3> closestToBall{};  // per side, m
-  std::array<int, 3> insideCount{};      // players of a side inside its own area
-  std::array<int, 3> movedInside{};      // change of that by moves of this cycle
+/// What the foul rules remember of one player. Counters count cycles.
+struct PlayerRecord {
+  int ground = 0;       // torso below 0.15 m
+  int notStanding = 0;  // torso below 0.25 m
+  int standing = 0;
+  bool insideOwnArea = false;
+  bool insideOwnAreaBefore = false;
+  int foulTime = 0;  // since the foul that waits for its punishment
+  FoulType lastFoul = FoulType::None;
+  int sinceBallTouch = 0;
+  int chargingTime = 0;  // since the last contact that was nobody's charging
+  int sinceMoved = 50;   // by the referee
+  std::array<Vector3f, kVelocitySamples> velocities{Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero()};
+  float lastSelfCollision = -1e5F;                                      // game time, s
+  std::array<float, model::kJointCount> jointFrozenAt = neverFrozen();  // game time, s, or kNeverFrozen
+  float ballDistance = kFar;                                            // m
+  int ballRank = 0;                                                     // 1: the nearest of its team
+  float goalDistance = kFar;  // m, to the own goal, of those inside the own area
+  int goalRank = 0;
+
+ private:
+  static constexpr std::array<float, model::kJointCount> neverFrozen() {
+    std::array<float, model::kJointCount> times{};
+    times.fill(kNeverFrozen);
+    return times;
+  }
+};
+
+/// And of one side.
+struct SideRecord {
+  float closestToBall = 0.0F;  // m
+  int insideCount = 0;         // players inside their own area
+  int movedInside = 0;         // change of that by moves of this cycle
+};
+
+/// The records go by uniform number and side: a number that changes hands keeps its record, as in the server.
+/// Number 0 and side None are robots without team.
+struct RuleRecords {
+  std::array<std::array<PlayerRecord, 3>, kMaxUnum + 1> players;
+  std::array<SideRecord, 3> sides;
+
+  PlayerRecord& of(TeamSide side, int unum) { return players[unum][index(side)]; }
+  const PlayerRecord& of(TeamSide side, int unum) const { return players[unum][index(side)]; }
+  PlayerRecord& of(const Player& player) { return of(player.side, player.unum); }
+  const PlayerRecord& of(const Player& player) const { return of(player.side, player.unum); }
+  SideRecord& of(TeamSide side) { return sides[index(side)]; }
+  const SideRecord& of(TeamSide side) const { return sides[index(side)]; }
 };
 
 struct RefereeContext {
@@ -80,7 +103,7 @@ struct RefereeContext {
   GameState game;
   BallState ball;
   FieldAreas areas;
-  RuleTables tables;
+  RuleRecords records;
   Random random;
   std::vector<FoulRecord> fouls;
   int nextTouchGroup = 0;
@@ -99,16 +122,16 @@ struct RefereeContext {
   }
   const Box2& ownArea(TeamSide side) const { return areas.penaltyArea(side == TeamSide::Left); }
   /// A foul that waits for its punishment: other rules ignore this player.
-  bool hasFoul(int unum, TeamSide side) const;
-  bool hasFoul(const Player& player) const { return hasFoul(player.unum, player.side); }
+  bool hasFoul(TeamSide side, int unum) const;
+  bool hasFoul(const Player& player) const { return hasFoul(player.side, player.unum); }
   void recordFoul(FoulType type, const Player& player);
   /// The players of a side (all robots for None), in connection order.
   std::vector<Player*> team(TeamSide side);
   /// The same in random order, as most rules go through them.
   std::vector<Player*> shuffledTeam(TeamSide side);
   Player* find(TeamSide side, int unum);
-  template <class T>
-  void shuffle(std::vector<T>& items) {
+  template <class Items>
+  void shuffle(Items& items) {
     for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.below(i)]);
   }
   /// Calls rule(Left) and rule(Right), in random order.
@@ -119,6 +142,11 @@ struct RefereeContext {
     rule(leftFirst ? TeamSide::Right : TeamSide::Left);
   }
 };
+
+/// Settings are seconds, counters count cycles.
+inline double cycles(double seconds) {
+  return seconds / kCycleTime;
+}
 
 inline float horizontalDistance(const Vector3f& a, const Vector3f& b) {
   return (a.head<2>() - b.head<2>()).norm();

@@ -38,21 +38,22 @@ class Fouls {
  private:
   void measure(TeamSide side);
   void countPosture(const Player& player, float height, float y);
-  static void rank(const PlayerTable<float>& distances, PlayerTable<int>& ranks, TeamSide side,
-                   const RefereeContext& context);
-  void resetPlayer(int unum, TeamSide side);
+  void rank(TeamSide side, float PlayerRecord::*distance, int PlayerRecord::*rank);
+  void resetPlayer(PlayerRecord& record) const;
+  /// The player's foul begins, or goes on for another cycle.
+  static void countFoul(PlayerRecord& record, FoulType foul);
 
   void judgeCharging();
-  void judgeChargingPair(const Player& left, const Player& right, const Vector3f& contact, RuleTables& next);
+  void judgeChargingPair(const Player& left, const Player& right, const Vector3f& contact, RuleRecords& next);
   void judgeSelfCollisions(TeamSide side);
   void selfCollision(const Player& player, model::BodyId first, model::BodyId second);
   void writeSelfCollision(const std::string& line);
   void thawJoints(bool all);
   void judgePositions(TeamSide side);
-  bool isCrowding(int unum, TeamSide side) const;
-  bool isIllegalDefence(int unum, TeamSide side) const;
-  bool isIncapable(int unum, TeamSide side) const;
-  void punishIllegalDefence(int unum, TeamSide side);
+  bool isCrowding(TeamSide side, int unum) const;
+  bool isIllegalDefence(TeamSide side, int unum) const;
+  bool isIncapable(TeamSide side, int unum) const;
+  void punishIllegalDefence(TeamSide side, int unum);
   void judgeTouching(TeamSide side, bool onlyNewcomers = true);
   void judgeTouchGroup(Player& player, TeamSide side);
   void punishTouching(Player& player, const Vector3f& groupCenter);

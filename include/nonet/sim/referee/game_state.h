@@ -24,10 +24,6 @@ using protocol::TeamName;
 using protocol::TeamSide;
 
 inline constexpr int kMaxUnum = 11;
-/// Tables indexed by uniform number and side, as the rules use them; number 0 and side None are robots
-/// without team.
-template <class T>
-using PlayerTable = std::array<std::array<T, 3>, kMaxUnum + 1>;
 
 constexpr TeamSide opponentOf(TeamSide side) {
   return side == TeamSide::Left ? TeamSide::Right : side == TeamSide::Right ? TeamSide::Left : TeamSide::None;
