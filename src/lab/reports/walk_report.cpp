@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "lab/parallel.h"
+#include "lab/trial/parallel.h"
 
 namespace nonet::lab {
 

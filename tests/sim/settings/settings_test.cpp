@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "nonet/sim/settings/declarations.h"
+
 namespace nonet::sim {
 namespace {
 
@@ -14,14 +16,14 @@ using ::testing::HasSubstr;
 
 std::map<std::string, std::string> valuesOf(const Settings& settings) {
   std::map<std::string, std::string> values;
-  for (const SettingView& view : listSettings(settings)) values[view.name] = view.value;
+  for (const config::ParameterView& view : listSettings(settings)) values[view.key] = view.text;
   return values;
 }
 
 std::string messageOf(const std::function<void()>& action) {
   try {
     action();
-  } catch (const SettingsError& error) {
+  } catch (const config::ParameterError& error) {
     return error.what();
   }
   return "no error";
@@ -114,17 +116,46 @@ TEST(Settings, EverySoccerVariableHasTheServersDefault) {
 }
 
 TEST(Settings, SetByNameChangesExactlyThatSetting) {
-  for (const SettingView& view : listSettings(Settings{})) {
+  for (const config::ParameterView& view : listSettings(Settings{})) {
     Settings settings;
-    const bool truth = view.value == "true" || view.value == "false";
-    const std::string other = truth               ? (view.value == "true" ? "false" : "true")
-                              : view.value == "1" ? "2"
-                                                  : "1";
-    settings.set(view.name, other);
+    const bool truth = view.kind == config::ParameterView::Kind::Boolean;
+    const std::string other = truth ? (view.text == "true" ? "false" : "true") : view.text == "1" ? "2" : "1";
+    settings.set(view.key, other);
     auto expected = valuesOf(Settings{});
-    expected[view.name] = other;
-    EXPECT_EQ(valuesOf(settings), expected) << view.name;
+    expected[view.key] = other;
+    EXPECT_EQ(valuesOf(settings), expected) << view.key;
   }
+}
+
+TEST(Settings, DeclarationsAreSound) {
+  EXPECT_THAT(config::declarationFaults(Settings{}), ::testing::IsEmpty());
+}
+
+TEST(Settings, ValuesMayHaveUnits) {
+  Settings settings;
+  settings.setAssignment("RuleHalfTime=1500ms");
+  settings.setAssignment("FieldLength=2100cm");
+  settings.setAssignment("BeamNoiseAngle=5deg");
+  settings.overlayText("BallMass = \"30g\"\n", "a.toml");
+  EXPECT_EQ(settings.ruleHalfTime, 1.5);
+  EXPECT_EQ(settings.fieldLength, 21.0);
+  EXPECT_EQ(settings.beamNoiseAngle, 5.0);
+  EXPECT_EQ(settings.ballMass, 0.03);
+}
+
+TEST(Settings, WrittenAsTomlTheyReadBackTheSame) {
+  Settings settings;
+  settings.set("RuleHalfTime", "0.1");
+  settings.set("LeftTeam", "a \"b\" \\ c\td");
+  settings.set("UseCharging", "off");
+  Settings again;
+  again.overlayText(config::toToml(settings), "a.toml");
+  EXPECT_EQ(valuesOf(again), valuesOf(settings));
+  EXPECT_EQ(again.leftTeam, settings.leftTeam);
+  EXPECT_THAT(
+      config::toTomlDifference(settings, Settings{}),
+      AllOf(HasSubstr("RuleHalfTime = 0.1"), HasSubstr("LeftTeam = "), HasSubstr("UseCharging = false")));
+  EXPECT_EQ(config::toTomlDifference(settings, settings), "");
 }
 
 TEST(Settings, AssignmentOfTheCommandLine) {
@@ -139,15 +170,16 @@ TEST(Settings, AssignmentOfTheCommandLine) {
 TEST(Settings, UnknownNameSuggestsTheNearest) {
   Settings settings;
   EXPECT_THAT(messageOf([&] { settings.set("RuleHalftime", "60"); }),
-              AllOf(HasSubstr("'RuleHalftime'"), HasSubstr("did you mean RuleHalfTime")));
-  EXPECT_THAT(messageOf([&] { settings.set("BeamNoise", "0"); }), HasSubstr("did you mean BeamNoiseXY"));
+              AllOf(HasSubstr("'RuleHalftime'"), HasSubstr("did you mean 'RuleHalfTime'")));
+  EXPECT_THAT(messageOf([&] { settings.set("BeamNoise", "0"); }), HasSubstr("did you mean 'BeamNoiseXY'"));
 }
 
 TEST(Settings, WrongTypesAndRangesAreErrors) {
   Settings settings;
   EXPECT_THAT(messageOf([&] { settings.set("FieldLength", "long"); }), HasSubstr("not a number"));
-  EXPECT_THAT(messageOf([&] { settings.set("FieldLength", "-3"); }), HasSubstr("outside"));
-  EXPECT_THAT(messageOf([&] { settings.set("FieldLength", "nan"); }), HasSubstr("not a number"));
+  EXPECT_THAT(messageOf([&] { settings.set("FieldLength", "-3"); }), HasSubstr("out of range"));
+  EXPECT_THAT(messageOf([&] { settings.set("FieldLength", "nan"); }), HasSubstr("out of range"));
+  EXPECT_THAT(messageOf([&] { settings.set("FieldLength", "3kg"); }), HasSubstr("m, cm, mm"));
   EXPECT_THAT(messageOf([&] { settings.set("MaxTouchGroupSize", "2.5"); }), HasSubstr("whole number"));
   EXPECT_THAT(messageOf([&] { settings.set("UseCharging", "maybe"); }), HasSubstr("neither true nor false"));
   EXPECT_EQ(valuesOf(settings), valuesOf(Settings{}));
@@ -163,8 +195,14 @@ TEST(Settings, TomlOverlaysAndNamesFileAndLineOfErrors) {
   EXPECT_EQ(settings.selfCollisionRecordFilename, "x.txt");
   const auto before = valuesOf(settings);
   EXPECT_THAT(messageOf([&] { settings.overlayText("RuleHalfTime = 5\nGoalWdith = 3\n", "b.toml"); }),
-              AllOf(HasSubstr("b.toml:2"), HasSubstr("did you mean GoalWidth")));
+              AllOf(HasSubstr("b.toml:2"), HasSubstr("did you mean 'GoalWidth'")));
   EXPECT_THAT(messageOf([&] { settings.overlayText("RuleHalfTime = \n", "b.toml"); }), HasSubstr("b.toml:1"));
+  EXPECT_THAT(messageOf([&] { settings.overlayText("[Soccer]\nUseCharging = 3\n", "b.toml"); }),
+              AllOf(HasSubstr("b.toml:2"), HasSubstr("true or false")));
+  EXPECT_THAT(messageOf([&] { settings.overlayText("LeftTeam = 3\n", "b.toml"); }),
+              AllOf(HasSubstr("b.toml:1"), HasSubstr("a text in quotes")));
+  EXPECT_THAT(messageOf([&] { settings.overlayText("[Socker]\nUseCharging = true\n", "b.toml"); }),
+              HasSubstr("did you mean 'Soccer'"));
   EXPECT_EQ(valuesOf(settings), before) << "an overlay that fails changes nothing";
   EXPECT_THAT(messageOf([&] { settings.overlayFile("/no/such.toml"); }), HasSubstr("/no/such.toml"));
 }

@@ -3,20 +3,14 @@
 // (noise, ground truth, solver). A process (ports, pace, lock-step) is chosen in ServerOptions.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "nonet/config/parameters.h"
 #include "nonet/sim/physics/world.h"
 
 namespace nonet::sim {
-
-/// Names the setting (and file and line, where it came from a file), and the nearest known name.
-class SettingsError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct Settings {
   // -- field and ball: metres, kilograms
@@ -123,32 +117,35 @@ struct Settings {
   std::string rightTeam;  // likewise right
   bool quickSolver = false;
   int threads = 1;
-  int threadPatience = 0;  // us for which a thread looks out for work before it sleeps
+  int threadPatience = 0;  // microseconds for which a thread looks out for work before it sleeps
 
   /// Switches mypos, myorien and ballpos on.
   void senseTruth();
   /// Switches the noise of vision, calibration and beam off.
   void removeNoise();
-  /// "30x20" (the default) or "21x14" (the field of 2012 and 2013). Throws SettingsError for anything else.
+  /// "30x20" (the default) or "21x14" (the field of 2012 and 2013). Throws config::ParameterError for
+  /// anything else.
   void setField(std::string_view preset);
-  /// Sets one value by its server name ("RuleHalfTime"). Throws SettingsError: unknown name (with the nearest
-  /// known one), wrong type.
+
+  // All of these throw config::ParameterError for an unknown name (with the nearest known one), a wrong type,
+  // unit or range, and then change nothing.
+  /// Sets one value by its server name ("RuleHalfTime"), as people type it: "60", "60s", "true".
   void set(std::string_view name, std::string_view value);
   /// "Name=Value".
   void setAssignment(std::string_view assignment);
-  /// Overlays a TOML file of `Name = value` lines, a [Soccer] table allowed; unchanged if it throws.
+  /// Overlays a TOML file of `Name = value` lines, which may stand in a [Soccer] table. Errors name file and
+  /// line.
   void overlayFile(const std::string& path);
   void overlayText(std::string_view toml, const std::string& nameForErrors);
+
+  /// Declares all settings as parameters: see declarations.h.
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit);
 
   WorldSettings world() const;
 };
 
-struct SettingView {
-  std::string name;
-  std::string value;
-  std::string text;
-};
 /// All settings with their present values, in the order of declaration.
-std::vector<SettingView> listSettings(const Settings& settings);
+std::vector<config::ParameterView> listSettings(const Settings& settings);
 
 }  // namespace nonet::sim
