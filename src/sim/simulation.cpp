@@ -13,7 +13,6 @@ namespace nonet::sim {
 
 namespace {
 
-constexpr float kStep = 0.02F;  // s
 constexpr std::uint64_t kRefereeStream = 1;
 constexpr std::uint64_t kPlayerStream = 0x100;       // + 16 * side + number
 constexpr std::uint64_t kConnectionStream = 0x1000;  // + handle
@@ -186,7 +185,7 @@ void Simulation::Implementation::initialise(Agent& agent, const protocol::InitEf
   if (accepted) {
     seedFor(agent, side, unum);
     spdlog::info("agent {}: number {} of team {} ({}), robot type {}", agent.handle, unum,
-                 std::string_view(init.team), side == TeamSide::Left ? "left" : "right", type);
+                 std::string_view(init.team), sideName(side), type);
   } else {
     constexpr std::array<const char*, 5> kReasons = {
         "", "there are two teams already", "the number is taken or the team is full", "numbers are 1 to 11",
@@ -424,7 +423,7 @@ void Simulation::finishCycle(const SharedWork& alongside) {
   self.referee.update(static_cast<int>(self.agents.size()));
   if (!(self.referee.game().teamName(TeamSide::Left) == leftBefore))
     ++self.sceneVersion;  // sides were changed
-  self.serverTime += kStep;
+  self.serverTime += kServerCycleTime;
   self.updateMatch();
   self.listVisiblePlayers();
   // Each has its own stream of random numbers and reads of the world only what no other sense changes.

@@ -7,18 +7,13 @@
 #include "nonet/protocol/rounding.h"
 
 #include "sim/fidelity/replay_server.h"
-#include "sim/physics/scene.h"
+#include "sim/sensors/on_wire.h"
 
 namespace nonet::sim {
 
 namespace {
 
-constexpr double kCycle = 0.02;             // s
 constexpr double kHistoryTolerance = 1e-3;  // m: how well a known history must meet the first cycle
-
-Eigen::Vector3d printed(const Vector3f& v) {
-  return {protocol::roundToWire(v.x()), protocol::roundToWire(v.y()), protocol::roundToWire(v.z())};
-}
 
 double largest(const Eigen::Vector3d& v) {
   return v.cwiseAbs().maxCoeff();
@@ -37,8 +32,8 @@ void compareFeet(const World& world, RobotHandle robot, const RecordedRobot& tru
     if (ours.has_value() != recorded) {
       ++error.footContacts;
     } else if (recorded) {
-      raise(error.footForce, largest(printed(ours->force) - theirs->second.force));
-      raise(error.footCenter, largest(printed(ours->center) - theirs->second.center));
+      raise(error.footForce, largest(onWire(ours->force) - theirs->second.force));
+      raise(error.footCenter, largest(onWire(ours->center) - theirs->second.center));
     }
   }
 }
@@ -52,13 +47,10 @@ void compareRobot(const World& world, RobotHandle robot, const RecordedRobot& tr
     raise(error.joints, std::abs(protocol::roundToWire(world.jointAngleDegrees(robot, joint)) - angle));
   }
   if (truth.gyro) {
-    const Vector3f rate = world.gyro(robot);
-    const Vector3f degrees(scene::toDegrees(rate.x()), scene::toDegrees(rate.y()),
-                           scene::toDegrees(rate.z()));
-    raise(error.gyro, largest(printed(degrees) - *truth.gyro));
+    raise(error.gyro, largest(onWire(toDegrees(world.gyro(robot))) - *truth.gyro));
   }
   if (truth.accelerometer) {
-    raise(error.accelerometer, largest(printed(world.accelerometer(robot)) - *truth.accelerometer));
+    raise(error.accelerometer, largest(onWire(world.accelerometer(robot)) - *truth.accelerometer));
   }
   compareFeet(world, robot, truth, error);
 }
@@ -83,7 +75,7 @@ ReplayServer::Answer answerOf(const RecordedCycle& cycle) {
 /// World-frame angular velocity that turns `from` into `to` within one cycle.
 Eigen::Vector3d angularVelocity(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   const Eigen::AngleAxisd turn{Eigen::Quaterniond(to * from.transpose()).normalized()};
-  return turn.axis() * (turn.angle() / kCycle);
+  return turn.axis() * (turn.angle() / kCycleTime);
 }
 
 /// Without a known history: every body as recorded in the second cycle, with the velocity that brought it
@@ -100,7 +92,7 @@ void startFromRecording(const Recording& recording, ReplayServer& server) {
       World::BodyState state;
       state.position = part.position;
       state.orientation = Eigen::Quaterniond(*part.rotation).normalized();
-      state.velocity = (part.position - last->second.position) / kCycle;
+      state.velocity = (part.position - last->second.position) / kCycleTime;
       state.angularVelocity = angularVelocity(*last->second.rotation, *part.rotation);
       still = still && state.velocity.norm() == 0.0 && state.angularVelocity.norm() < 1e-9;
       world.setBodyState(server.robot(i), body, state);
@@ -108,14 +100,14 @@ void startFromRecording(const Recording& recording, ReplayServer& server) {
     for (const auto& [joint, angle] : now.robots[i].joints) {
       const auto last = before.robots[i].joints.find(joint);
       if (last == before.robots[i].joints.end()) continue;
-      const double rate = (angle - last->second) * M_PI / 180.0 / kCycle;
+      const double rate = (angle - last->second) * M_PI / 180.0 / kCycleTime;
       world.setJointSpeed(server.robot(i), joint, static_cast<float>(rate));
     }
     if (still) world.setAsleep(server.robot(i), true);
   }
   World::BodyState ball;
   ball.position = now.ball;
-  ball.velocity = (now.ball - before.ball) / kCycle;
+  ball.velocity = (now.ball - before.ball) / kCycleTime;
   world.setBallState(ball);
   if (now.playMode == "BeforeKickOff") server.ballToCentre();
   server.setPending(answerOf(before));
@@ -129,7 +121,7 @@ bool isKickOff(const std::string& mode) {
 }
 
 void add(FidelityResult& result, const CycleError& error) {
-  const double time = static_cast<double>(result.cycles.size()) * kCycle;
+  const double time = static_cast<double>(result.cycles.size()) * kCycleTime;
   for (std::size_t i = 0; i < kFidelityLimits.size(); ++i) {
     if (!result.firstOver[i] && !(error.position() <= kFidelityLimits[i])) result.firstOver[i] = time;
   }
@@ -163,7 +155,7 @@ void replayFrom(std::size_t first, const Recording& recording, ReplayServer& ser
 
 double FidelityResult::worstPositionBefore(double seconds) const {
   double error = 0.0;
-  for (std::size_t i = 0; i < cycles.size() && static_cast<double>(i) * kCycle < seconds; ++i) {
+  for (std::size_t i = 0; i < cycles.size() && static_cast<double>(i) * kCycleTime < seconds; ++i) {
     raise(error, cycles[i].position());
   }
   return error;
@@ -218,9 +210,9 @@ std::string drawFidelity(const FidelityResult& result) {
         "text-anchor=\"end\">{6:.0e}</text>\n",
         kLeft, kLeft + kWidth, y(level), limit ? "#c33" : "#ddd", kLeft - 6, y(level) + 4, level);
   }
-  for (int second = 0; second * 50 <= static_cast<int>(cycles); ++second) {
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{} s</text>\n", x(second * 50),
-                       kTop + kHeight + 18, second);
+  for (int second = 0; second <= cycles * kCycleTime; ++second) {
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{} s</text>\n",
+                       x(second / kCycleTime), kTop + kHeight + 18, second);
   }
   const auto curve = [&](double CycleError::*member, std::string_view colour) {
     svg += fmt::format("<polyline fill=\"none\" stroke=\"{}\" points=\"", colour);

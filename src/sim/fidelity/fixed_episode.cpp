@@ -92,7 +92,7 @@ EpisodeResult runFixedEpisode(const WorldSettings& settings, int robots, int cyc
   context.players = players;
   protocol::Percept percept;
   EpisodeResult result;
-  result.simulated = 0.02 * cycles;
+  result.simulated = kCycleTime * cycles;
   for (int cycle = 0; cycle < cycles; ++cycle) {
     const double begin = processorSeconds();
     for (const RobotHandle robot : world.robots()) command(world, robot, cycle);

@@ -19,11 +19,10 @@ using model::JointId;
 using Speeds = std::vector<std::pair<JointId, float>>;
 using Targets = std::map<JointId, double>;  // degrees
 
-constexpr double kCycle = 0.02;
 constexpr double kMaxSpeed = 6.1395;  // rad/s
 
 int cyclesOf(double seconds) {
-  return static_cast<int>(std::nearbyint(seconds / kCycle));
+  return static_cast<int>(std::nearbyint(seconds / kCycleTime));
 }
 
 std::string ballCommand(double x, double y, double z = 0.042) {

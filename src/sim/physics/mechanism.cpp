@@ -16,6 +16,7 @@ namespace {
 
 using model::BodyId;
 using scene::scriptNumber;
+using scene::scriptVector;
 
 const Vector3f kBirthPlace{0.0F, -1.0F, 1.5F};  // of a robot's torso
 
@@ -27,16 +28,6 @@ double defaultJointSpeed() {
 /// From the model's robot frame (x forward, y left) to the server's body frame (x right, y forward).
 Vector3 toServer(const Vector3& v) {
   return {0.0 - v.y(), v.x(), v.z()};
-}
-
-/// Extents of a box: no sign.
-Vector3 extentsToServer(const Vector3& size) {
-  return {size.y(), size.x(), size.z()};
-}
-
-Vector3f rounded(const Vector3& v) {
-  return {static_cast<float>(scriptNumber(v.x())), static_cast<float>(scriptNumber(v.y())),
-          static_cast<float>(scriptNumber(v.z()))};
 }
 
 // A robot part as the scene description computes it.
@@ -68,7 +59,7 @@ void adjustFootWithToe(const model::RobotModel& model, BodyId id, Part& part) {
 Part partFor(const model::RobotModel& model, const model::BodySpec& spec) {
   Part part;
   part.offset = toServer(spec.offset);
-  part.extents = extentsToServer(spec.shape.size);
+  part.extents = scene::extentsInServerAxes(spec.shape.size);
   part.mass = spec.mass;
   if (spec.joint) part.anchor = toServer(model.joint(*spec.joint).anchor);
   if (model.hasToes()) adjustFootWithToe(model, spec.id, part);
@@ -89,11 +80,11 @@ RobotPlan::Joint planJoint(const model::JointSpec& spec, const Part& part, const
   joint.maxSpeed = static_cast<float>(byDegrees ? defaultJointSpeed() : scriptNumber(spec.maxSpeed));
   joint.lowStop = scene::toRadians(static_cast<float>(std::round(toDegrees(spec.low))));
   joint.highStop = scene::toRadians(static_cast<float>(std::round(toDegrees(spec.high))));
-  joint.anchor = scene::transform(child, rounded(part.anchor));
+  joint.anchor = scene::transform(child, scriptVector(part.anchor));
   // The hip's axis is written as 0.7071, ODE normalises it.
   const Vector3 scaled = toServer(spec.axis).unaryExpr(
       [](double c) { return std::abs(std::abs(c) - 0.7071) < 1e-4 ? std::copysign(0.7071, c) : c; });
-  joint.axis = scene::rotate(child.rotation, rounded(scaled));
+  joint.axis = scene::rotate(child.rotation, scriptVector(scaled));
   return joint;
 }
 

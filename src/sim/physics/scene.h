@@ -14,12 +14,22 @@ namespace nonet::sim::scene {
 
 using Matrix3f = Eigen::Matrix3f;
 
+/// The extents of a box of the model (x forward, y left) in the server's axes (x right, y forward).
+inline Vector3 extentsInServerAxes(const Vector3& extents) {
+  return {extents.y(), extents.x(), extents.z()};
+}
+
 /// A number computed in a scene description: it is handed on as text with six significant digits of a 32-bit
 /// float.
 inline double scriptNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%g", static_cast<double>(static_cast<float>(value)));
   return std::strtod(text, nullptr) + 0.0;  // + 0.0: no negative zero
+}
+
+inline Vector3f scriptVector(const Vector3& v) {
+  return {static_cast<float>(scriptNumber(v.x())), static_cast<float>(scriptNumber(v.y())),
+          static_cast<float>(scriptNumber(v.z()))};
 }
 
 inline float toRadians(float degrees) {

@@ -16,6 +16,7 @@ namespace {
 
 using model::BodyId;
 using scene::scriptNumber;
+using scene::scriptVector;
 
 // Server facts 3.2, first table.
 const Surface kGroundSurface{.softErp = true, .slips = true, .erp = 0.2F, .slip = 5e-3F};
@@ -32,11 +33,6 @@ const Surface kBallSurface{.bounces = true,
                            .slip = 0.6F};
 const Surface kFrameSurface{.bounces = true, .bounce = 0.8F, .bounceVelocity = 2.0F};
 const Surface kTriggerSurface{.contacts = false};
-
-Vector3f rounded(const Vector3& v) {
-  return {static_cast<float>(scriptNumber(v.x())), static_cast<float>(scriptNumber(v.y())),
-          static_cast<float>(scriptNumber(v.z()))};
-}
 
 dGeomID createGeom(const RobotPlan::Body& part) {
   switch (part.shape) {
@@ -84,11 +80,11 @@ void World::Implementation::buildGoal(Goal side) {
   goal = dHashSpaceCreate(space);
   dSpaceSetCleanup(goal, 0);
   ScenePose frame;
-  frame.position = rounded({left ? -x : x, 0.0, halfHeight});
+  frame.position = scriptVector({left ? -x : x, 0.0, halfHeight});
   frame.rotation = scene::rotationZ(scene::toRadians(left ? 0.0F : 180.0F));
   const auto part = [&](const Vector3& offset, const Vector3& size, const Surface& surface, Goal trigger) {
-    const ScenePose pose{frame.rotation, scene::transform(frame, rounded(offset))};
-    addBox(goal, pose, rounded(size), surface, trigger);
+    const ScenePose pose{frame.rotation, scene::transform(frame, scriptVector(offset))};
+    addBox(goal, pose, scriptVector(size), surface, trigger);
   };
   const Vector3 bar(settings.goalDepth, kBar, settings.goalHeight);
   const double roofWidth = settings.goalWidth + 2.0 * kBar;
@@ -122,7 +118,7 @@ void World::Implementation::buildField() {
   const double lengthX = kWall + 2.0 * wallX;
   const double lengthY = kWall + 2.0 * wallY;
   const auto wall = [&](const Vector3& position, const Vector3& size) {
-    addBox(space, {Eigen::Matrix3f::Identity(), rounded(position)}, rounded(size), kFrameSurface);
+    addBox(space, {Eigen::Matrix3f::Identity(), scriptVector(position)}, scriptVector(size), kFrameSurface);
   };
   wall({-wallX, 0, 0}, {kWall, lengthY, kWall});
   wall({wallX, 0, 0}, {kWall, lengthY, kWall});

@@ -14,6 +14,7 @@
 #include "sim/physics/islands.h"
 #include "sim/physics/ode_parameters.h"
 #include "sim/physics/quick_stepper.h"
+#include "sim/physics/scene.h"
 #include "sim/physics/workers.h"
 
 namespace nonet::sim {
@@ -83,6 +84,12 @@ inline void placeGeom(BodyNode& node) {
   const dReal* position = dBodyGetPosition(node.body);
   dGeomSetRotation(node.geom, dBodyGetRotation(node.body));
   dGeomSetPosition(node.geom, position[0], position[1], position[2]);
+}
+
+/// Takes the body's pose over into the scene.
+inline void copyPose(BodyNode& node) {
+  node.pose = {scene::rotationFromOde(dBodyGetRotation(node.body)),
+               scene::fromOde(dBodyGetPosition(node.body))};
 }
 
 struct JointNode {

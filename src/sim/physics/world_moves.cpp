@@ -36,8 +36,7 @@ void setState(BodyNode& node, const World::BodyState& state) {
   dBodySetLinearVel(node.body, v.x(), v.y(), v.z());
   dBodySetAngularVel(node.body, w.x(), w.y(), w.z());
   placeGeom(node);
-  node.pose = {scene::rotationFromOde(dBodyGetRotation(node.body)),
-               scene::fromOde(dBodyGetPosition(node.body))};
+  copyPose(node);
   wakeBody(node);
 }
 

@@ -9,7 +9,6 @@ namespace nonet::sim {
 
 namespace {
 
-constexpr float kStep = 0.02F;  // s; 32-bit as the server passes it to ODE
 constexpr float kLinearDrag = 0.01F;
 constexpr float kRobotAngularDrag = 0.01F;
 constexpr float kBallAngularDrag = 0.00005F;
@@ -31,7 +30,7 @@ void applyDrag(dBodyID body, float angularDrag) {
 void sampleAcceleration(RobotNode& robot) {
   const dBodyID torso = robot.bodies.front().body;
   const Vector3f velocity = scene::fromOde(dBodyGetLinearVel(torso));
-  const Vector3f change = (velocity - robot.lastVelocity) / kStep - kGravityVector;
+  const Vector3f change = (velocity - robot.lastVelocity) / kServerCycleTime - kGravityVector;
   robot.lastVelocity = velocity;
   robot.acceleration = scene::inverseDirection(scene::rotationFromOde(dBodyGetRotation(torso)), change);
 }
@@ -147,9 +146,9 @@ void World::Implementation::stepPhysics(const SharedWork& alongside) {
     if (i >= islandsUsed) {
       alongside.piece(i - islandsUsed);
     } else if (settings.solver == WorldSettings::Solver::Exact) {
-      stepExactly(*islandsBySize[i], kStep);
+      stepExactly(*islandsBySize[i], kServerCycleTime);
     } else {
-      stepQuickly(*islandsBySize[i], kStep);
+      stepQuickly(*islandsBySize[i], kServerCycleTime);
     }
   });
   placeMovedGeoms();
@@ -260,13 +259,9 @@ void World::Implementation::placeMovedGeoms() {
 }
 
 void World::Implementation::copyPoses() {
-  const auto copy = [](BodyNode& node) {
-    node.pose.rotation = scene::rotationFromOde(dBodyGetRotation(node.body));
-    node.pose.position = scene::fromOde(dBodyGetPosition(node.body));
-  };
-  copy(ball);
+  copyPose(ball);
   for (const auto& robot : robots) {
-    for (BodyNode& body : robot->bodies) copy(body);
+    for (BodyNode& body : robot->bodies) copyPose(body);
   }
 }
 

@@ -62,9 +62,7 @@ void findCandidates(std::array<Party, 2>& parties, const Vector3f& contact, cons
   }
   for (std::size_t i = 0; i < 2; ++i) {
     Party& p = parties[i];
-    Vector2f normal = (contact.head<2>() + parties[1 - i].position) / 2.0F - p.position;
-    const float length = normal.norm();
-    if (length > 0.0F) normal /= length;
+    const Vector2f normal = directionOf((contact.head<2>() + parties[1 - i].position) / 2.0F - p.position);
     p.charging =
         p.charging && p.speed >= s.chargingMinSpeed && p.velocity.dot(normal) >= s.chargingMinCollisionSpeed;
   }
@@ -81,7 +79,6 @@ void Fouls::judgeChargingPair(const Player& left, const Player& right, const Vec
   std::array<Party, 2> parties;
   parties[0].player = &left;
   parties[1].player = &right;
-  constexpr int kMovedRecently = 50;  // cycles
   for (Party& p : parties) {
     const PlayerRecord& record = now.of(*p.player);
     if (record.notStanding != 0 || record.sinceMoved < kMovedRecently || c_.hasFoul(*p.player)) return;

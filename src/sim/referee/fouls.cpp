@@ -231,8 +231,8 @@ void Fouls::punish(TeamSide side) {
       place.z() = static_cast<float>(1.0 + record.foulTime * 0.01);
       placing_.move(*player, place, Placing::Where::Exactly);
     } else {
-      spdlog::info("referee: player {} ({}) is put outside the field (foul {})", player->unum,
-                   side == TeamSide::Left ? "left" : "right", static_cast<int>(foul));
+      spdlog::info("referee: player {} ({}) is put outside the field (foul {})", player->unum, sideName(side),
+                   static_cast<int>(foul));
       Vector3f place = placing_.outsidePosition(*player);
       if (c_.settings.foulHoldTime > 0.0) place.z() = c_.agentRadius();
       placing_.move(*player, place);

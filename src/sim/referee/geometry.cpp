@@ -84,6 +84,16 @@ FieldAreas::FieldAreas(const Settings& settings) {
   rightPenaltyArea = {Vector2f(halfLength - depth, -halfArea), Vector2f(halfLength, halfArea)};
 }
 
+void FieldAreas::moveOutOfPenaltyArea(Vector3f& position) const {
+  for (const bool left : {true, false}) {
+    const Box2& area = penaltyArea(left);
+    if (!area.contains(position.head<2>())) continue;
+    position.x() = left ? area.high.x() : area.low.x();
+    position.y() = position.y() < 0.0F ? area.low.y() : area.high.y();
+    return;
+  }
+}
+
 Box3 drawnBox(const World& world, RobotHandle robot) {
   static const std::vector<DrawnExtent> kWithoutToes = drawnExtents(false);
   static const std::vector<DrawnExtent> kWithToes = drawnExtents(true);

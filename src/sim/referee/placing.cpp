@@ -74,9 +74,7 @@ void Placing::repel(const Vector3f& position, float radius, TeamSide side, float
   for (const Player* player : c_.shuffledTeam(side)) {
     Vector3f place = c_.torso(*player);
     if (horizontalDistance(place, position) >= radius) continue;
-    Vector2f away = place.head<2>() - position.head<2>();
-    const float length = away.norm();
-    if (length > 0.0F) away /= length;
+    const Vector2f away = directionOf(place.head<2>() - position.head<2>());
     place.head<2>() = position.head<2>() + away * (radius + margin);
     move(*player, place, Where::SafelyNearBall);
   }
@@ -183,8 +181,7 @@ Vector3f Placing::safePosition(const Player& player, const Vector3f& target, boo
     candidates.pop_front();
   };
   const auto failed = [&] {
-    spdlog::warn("referee: no free place found for player {} ({})", player.unum,
-                 player.side == TeamSide::Left ? "left" : "right");
+    spdlog::warn("referee: no free place found for player {} ({})", player.unum, sideName(player.side));
   };
   Vector2f shifted = target.head<2>();
   if (keepOutOfFullArea(from, player, shifted)) {

@@ -20,7 +20,7 @@ Referee::Referee(const Settings& settings, World& world, std::vector<Player>& pl
 // The order within a cycle: server facts 1.2 (phase 6) and section 4.
 void Referee::update(int clientCount) {
   fouls_.collectContacts();
-  c_.game.advance(0.02F);
+  c_.game.advance(kServerCycleTime);
   updateBall();
   updateClock();
   updateKickOffScoring();
@@ -200,13 +200,7 @@ void Referee::dropBall() {
 }
 
 void Referee::dropBallAt(Vector3f position) {
-  for (const bool left : {true, false}) {
-    const Box2& area = c_.areas.penaltyArea(left);
-    if (!area.contains(position.head<2>())) continue;
-    position.x() = left ? area.high.x() : area.low.x();
-    position.y() = position.y() < 0.0F ? area.low.y() : area.high.y();
-    break;
-  }
+  c_.areas.moveOutOfPenaltyArea(position);
   const float halfWidth = c_.halfWidth();
   if (position.y() <= -halfWidth) {
     position.y() = -halfWidth + c_.ballRadius();

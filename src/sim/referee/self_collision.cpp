@@ -7,6 +7,8 @@
 
 #include "nonet/sim/referee/fouls.h"
 
+#include "sim/physics/scene.h"
+
 namespace nonet::sim {
 
 namespace {
@@ -98,11 +100,8 @@ bool excluded(BodyId a, BodyId b) {
          pair(BodyId::RFoot, BodyId::RToe) || pair(BodyId::LFoot, BodyId::LToe);
 }
 
-// Full extents in the server's axes (x right, y forward): the model's are in the robot frame (x forward, y
-// left).
 Vector3f serverSize(const model::BodySpec& body) {
-  return Vector3f(static_cast<float>(body.shape.size.y()), static_cast<float>(body.shape.size.x()),
-                  static_cast<float>(body.shape.size.z()));
+  return scene::extentsInServerAxes(body.shape.size).cast<float>();
 }
 
 }  // namespace

@@ -92,15 +92,8 @@ void Referee::kickInMode(TeamSide side) {
 }
 
 void Referee::freeKickMode(TeamSide side, bool indirect) {
-  // Never inside a penalty area: from its nearest front corner.
   if (c_.game.modeTime() >= static_cast<float>(c_.settings.ruleKickInPauseTime)) {
-    for (const bool left : {true, false}) {
-      const Box2& area = c_.areas.penaltyArea(left);
-      if (!area.contains(p_.position.head<2>())) continue;
-      p_.position.x() = left ? area.high.x() : area.low.x();
-      p_.position.y() = p_.position.y() < 0.0F ? area.low.y() : area.high.y();
-      break;
-    }
+    c_.areas.moveOutOfPenaltyArea(p_.position);
   }
   if (!setPieceRuns(side)) return;
   if (setPieceTouched()) {

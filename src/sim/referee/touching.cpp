@@ -135,10 +135,7 @@ void Fouls::punishTouching(Player& player, const Vector3f& groupCenter) {
   countFoul(c_.records.of(player), FoulType::Touching);
   if (c_.settings.touchingFoulBeamPenalty) return;
   Vector3f place = c_.sceneTorso(player);
-  Vector2f away = place.head<2>() - groupCenter.head<2>();
-  const float length = away.norm();
-  if (length > 0.0F) away /= length;
-  place.head<2>() += away * c_.agentRadius();
+  place.head<2>() += directionOf(place.head<2>() - groupCenter.head<2>()) * c_.agentRadius();
   placing_.move(player, place);
 }
 

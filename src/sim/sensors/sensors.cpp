@@ -6,6 +6,7 @@
 #include "nonet/protocol/server_axes.h"
 
 #include "sim/physics/scene.h"
+#include "sim/sensors/on_wire.h"
 
 namespace nonet::sim {
 
@@ -13,10 +14,6 @@ namespace {
 
 using protocol::PerceptKind;
 using protocol::SeenKind;
-
-Vector3 rounded(const Vector3f& v) {
-  return {protocol::roundToWire(v.x()), protocol::roundToWire(v.y()), protocol::roundToWire(v.z())};
-}
 
 /// A position in the own team's frame: turned by 180 degrees for the right team.
 Vector3f turned(const Vector3f& v, protocol::TeamSide side) {
@@ -66,7 +63,7 @@ void seePlayer(const World& world, const VisiblePlayer& player, Camera& camera, 
 void addTruth(const World& world, const ScenePose& head, const SensorContext& context,
               protocol::Vision& vision) {
   if (context.truePosition) {
-    vision.truePosition = rounded(turned(head.position, context.side));
+    vision.truePosition = onWire(turned(head.position, context.side));
     vision.order.push_back(SeenKind::MyPosition);
   }
   if (context.trueHeading) {
@@ -75,7 +72,7 @@ void addTruth(const World& world, const ScenePose& head, const SensorContext& co
     vision.order.push_back(SeenKind::MyOrientation);
   }
   if (context.trueBallPosition) {
-    vision.trueBallPosition = rounded(turned(world.ballPose().position, context.side));
+    vision.trueBallPosition = onWire(turned(world.ballPose().position, context.side));
     vision.order.push_back(SeenKind::BallPosition);
   }
 }
@@ -117,8 +114,8 @@ void AgentSensors::addForce(const World& world, RobotHandle self, protocol::Forc
   const auto contact = world.footContact(self, footOf(sensor));
   if (!contact) return;
   percept.forces[static_cast<std::size_t>(sensor)] =
-      protocol::FootForce{protocol::robotFromServerAxes(rounded(contact->center)),
-                          protocol::robotFromServerAxes(rounded(contact->force))};
+      protocol::FootForce{protocol::robotFromServerAxes(onWire(contact->center)),
+                          protocol::robotFromServerAxes(onWire(contact->force))};
   percept.order.push_back({PerceptKind::Force, static_cast<std::uint8_t>(sensor)});
 }
 
@@ -141,7 +138,7 @@ void AgentSensors::fill(const World& world, RobotHandle self, const SensorContex
                                                 protocol::radiansOnWire(scene::toDegrees(rate.y())),
                                                 protocol::radiansOnWire(scene::toDegrees(rate.z()))});
   percept.order.push_back({PerceptKind::Gyro, 0});
-  percept.accelerometer = protocol::robotFromServerAxes(rounded(world.accelerometer(self)));
+  percept.accelerometer = protocol::robotFromServerAxes(onWire(world.accelerometer(self)));
   percept.order.push_back({PerceptKind::Accelerometer, 0});
   addJoint(world, self, model::JointId::Head1, percept);
   addJoint(world, self, model::JointId::Head2, percept);

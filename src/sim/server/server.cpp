@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using asio::ip::tcp;
 
-constexpr auto kCycle = std::chrono::milliseconds(20);
+const auto kCycle = std::chrono::round<Clock::duration>(std::chrono::duration<double>(kCycleTime));
 constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as silent
 
 // Of equal effectors the last one counts, as within one message.

@@ -16,11 +16,15 @@
 
 #include <Eigen/Geometry>
 
+#include "nonet/math/types.h"
 #include "nonet/model/robot_model.h"
 
 namespace nonet::sim {
 
 using Vector3f = Eigen::Vector3f;
+
+/// The length of a cycle as the server has it: 32-bit, s.
+inline constexpr float kServerCycleTime = static_cast<float>(kCycleTime);
 
 /// Pose of a body as the scene tree holds it: rotation columns are the body's axes in the world.
 struct ScenePose {
@@ -34,8 +38,8 @@ inline constexpr RobotHandle kNoRobot = -1;
 
 struct WorldSettings {
   /// Exact: ODE's dWorldStep, the real server's bits. Quick: the same equations solved along the robots'
-  /// joints (articulated_body_solver.h), five times faster; it differs from Exact by rounding (1e-9 m in a step), which
-  /// only chaos makes visible, after seconds of walking or in a pile of robots.
+  /// joints (articulated_body_solver.h), five times faster; it differs from Exact by rounding (1e-9 m in a
+  /// step), which only chaos makes visible, after seconds of walking or in a pile of robots.
   enum class Solver : std::uint8_t { Exact, Quick };
   Solver solver = Solver::Exact;
   int threads = 1;  // workers that step separate islands; the result does not depend on it
@@ -85,7 +89,7 @@ class World {
   World& operator=(const World&) = delete;
 
   const WorldSettings& settings() const;
-  double time() const;  // s of simulated physics, cycles * 0.02
+  double time() const;  // s of simulated physics
 
   // -- robots
   // ---------------------------------------------------------------------------------------------------
@@ -160,7 +164,7 @@ class World {
   /// Drag and sensor sampling (the server's pre-physics phase). Deferred effectors are executed by the caller
   /// right after it.
   void prePhysics();
-  /// Collision, one ODE step of 0.02 s, copy of the poses (collide + step + post-physics).
+  /// Collision, one ODE step of kCycleTime, copy of the poses (collide + step + post-physics).
   /// Work that does not touch this world may go on beside the islands, on the same threads.
   void stepPhysics(const SharedWork& alongside = {});
   /// Does work that reads the world, such as the sensors of different robots, on the threads that step the

@@ -40,6 +40,7 @@ struct BallState {
 };
 
 inline constexpr int kVelocitySamples = 3;  // cycles over which charging averages velocities
+inline constexpr int kMovedRecently = 50;   // cycles, after which a move by the referee is forgotten
 inline constexpr float kNeverFrozen = -1e30F;
 
 inline constexpr float kFar = 1000.0F;  // m, the distance of players who are not there
@@ -54,8 +55,8 @@ struct PlayerRecord {
   int foulTime = 0;  // since the foul that waits for its punishment
   FoulType lastFoul = FoulType::None;
   int sinceBallTouch = 0;
-  int chargingTime = 0;  // since the last contact that was nobody's charging
-  int sinceMoved = 50;   // by the referee
+  int chargingTime = 0;             // since the last contact that was nobody's charging
+  int sinceMoved = kMovedRecently;  // by the referee
   std::array<Vector3f, kVelocitySamples> velocities{Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero()};
   float lastSelfCollision = -1e5F;                                      // game time, s
   std::array<float, model::kJointCount> jointFrozenAt = neverFrozen();  // game time, s, or kNeverFrozen

@@ -28,6 +28,10 @@ inline constexpr int kMaxUnum = 11;
 constexpr TeamSide opponentOf(TeamSide side) {
   return side == TeamSide::Left ? TeamSide::Right : side == TeamSide::Right ? TeamSide::Left : TeamSide::None;
 }
+/// For the log.
+constexpr std::string_view sideName(TeamSide side) {
+  return side == TeamSide::Left ? "left" : side == TeamSide::Right ? "right" : "none";
+}
 constexpr std::size_t index(TeamSide side) {
   return static_cast<std::size_t>(side);
 }

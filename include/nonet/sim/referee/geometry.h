@@ -47,12 +47,20 @@ struct Box3 {
   }
 };
 
+/// The unit vector of this direction; zero for the zero vector.
+inline Vector2f directionOf(const Vector2f& v) {
+  const float length = v.norm();
+  return length > 0.0F ? Vector2f(v / length) : v;
+}
+
 bool sphereMeetsBox(const Vector3f& center, float radius, const Box3& box);
 
 /// The parts of the field that rules speak of. The halves reach 10 m beyond the field.
 struct FieldAreas {
   explicit FieldAreas(const Settings& settings);
   const Box2& penaltyArea(bool left) const { return left ? leftPenaltyArea : rightPenaltyArea; }
+  /// A place inside a penalty area is moved to the nearest of its front corners.
+  void moveOutOfPenaltyArea(Vector3f& position) const;
 
   Box2 leftHalf;
   Box2 rightHalf;
