@@ -32,12 +32,13 @@ PARTS = {
         "fidelity": ["physics", "sensors"],
     },
     "lab": {
-        "trial": [],
-        "tasks": ["trial"],
-        "optimize": ["trial", "tasks"],
-        "match": [],
-        "reports": ["trial", "tasks", "optimize", "match"],
-        TOP: ["trial", "tasks", "optimize", "match", "reports"],
+        "common": [],
+        "trial": ["common"],
+        "tasks": ["common", "trial"],
+        "optimize": ["common", "trial", "tasks"],
+        "match": ["common"],
+        "reports": ["common", "trial", "tasks", "optimize", "match"],
+        TOP: ["common", "trial", "tasks", "optimize", "match", "reports"],
     },
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
