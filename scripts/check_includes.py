@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Checks the include rules between the modules: a file of include/nonet/<module> or src/<module> may include only
-headers of its own module and of those that the table allows."""
+"""Checks the include rules. A file of include/nonet/<module> or src/<module> may include headers of its own module
+and of the modules that MODULES allows. Where PARTS has the module, the same holds for its sub-folders."""
 import pathlib
 import re
 import sys
 
 CHAIN = ["math", "config", "model", "protocol", "world", "motion", "team", "agent"]
-ALLOWED = {
+MODULES = {
     "math": [],
     "config": ["math"],
     "model": ["math", "config"],
@@ -19,32 +19,80 @@ ALLOWED = {
     "lab": CHAIN + ["sim"],
     "app": CHAIN + ["sim", "lab"],
 }
+# Sub-folder: the sub-folders that it may include. TOP is the module's own folder.
+TOP = "."
+PARTS = {
+    "sim": {
+        "physics": [],
+        "settings": ["physics"],
+        "sensors": ["physics", "settings"],
+        "referee": ["physics", "settings"],
+        TOP: ["physics", "settings", "sensors", "referee"],
+        "server": ["physics", "settings", "sensors", "referee", TOP],
+        "fidelity": ["physics", "sensors"],
+    },
+    "lab": {
+        "common": [],
+        "trial": ["common"],
+        "tasks": ["common", "trial"],
+        "optimize": ["common", "trial", "tasks"],
+        "match": ["common"],
+        "reports": ["common", "trial", "tasks", "optimize", "match"],
+        TOP: ["common", "trial", "tasks", "optimize", "match", "reports"],
+    },
+}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 
 
-def module_of(path):
-    """The module a file belongs to, and whether the folder is known."""
-    parts = path.parts
-    return parts[2] if parts[:2] == ("include", "nonet") else parts[1]
+def place(parts):
+    """Module and sub-folder of a path that begins with the module: ("sim", "physics") or ("sim", TOP)."""
+    return parts[0], parts[1] if len(parts) > 2 else TOP
 
 
-def problems_in(path, module):
-    allowed = {module, *ALLOWED[module]}
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+def included(name, root):
+    """The path of a project header within include/nonet or src; None for a header of somebody else's or one that
+    lies beside its includer."""
+    if name.startswith("nonet/"):
+        return name.split("/")[1:]
+    return name.split("/") if (root / "src" / name).is_file() else None
+
+
+def problem_of(name, module, part, root):
+    """What is wrong with a file of `part` in `module` including `name`; None if nothing is."""
+    if name.startswith(".."):
+        return f"{name}: no paths that climb; use nonet/<module>/..."
+    path = included(name, root)
+    if path is None:
+        return None
+    target, target_part = place(path)
+    if target not in MODULES:
+        return f"{name}: no such module"
+    if target not in [module, *MODULES[module]]:
+        return f"{module} must not include {target} ({name})"
+    order = PARTS.get(module)
+    if target == module and order and target_part not in [part, *order[part]]:
+        may = ", ".join(f"{module}/{other}" for other in order[part]) or "no other sub-folder"
+        return f"{module}/{part} must not include {module}/{target_part} ({name}); it may include {may}"
+    return None
+
+
+def problems_in(path, relative, root):
+    """Line and problem of all that is wrong with one file; `relative` begins with the module."""
+    module, part = place(relative.parts)
+    if module not in MODULES:
+        return [(1, f"folder '{module}' is not a module")]
+    if part not in PARTS.get(module, [part]):
+        return [(1, f"'{part}' is not a sub-folder of {module}; PARTS in check_includes.py has them")]
+    text = path.read_text(encoding="utf-8")
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
         match = INCLUDE.match(line)
-        if not match:
-            continue
-        name = match.group(1)
-        if name.startswith("nonet/"):
-            target = name.split("/")[1]
-            if target not in ALLOWED:
-                yield f"{path}:{number}: {name}: no such module"
-            elif target not in allowed:
-                yield f"{path}:{number}: {module} must not include {target} ({name})"
-        elif name.startswith(".."):
-            yield f"{path}:{number}: {name}: no paths that climb; use nonet/<module>/..."
-        elif "/" in name and name.split("/")[0] in ALLOWED and name.split("/")[0] not in allowed:
-            yield f"{path}:{number}: {module} must not include {name}"
+        problem = problem_of(match.group(1), module, part, root) if match else None
+        if problem:
+            found.append((number, problem))
+    if path.suffix == ".h" and "#pragma once" not in text:
+        found.append((1, "#pragma once is missing"))
+    return found
 
 
 def main():
@@ -52,19 +100,12 @@ def main():
     found, files = [], 0
     for folder in ("include/nonet", "src"):
         for path in sorted((root / folder).rglob("*")):
-            if path.suffix not in (".h", ".cpp") or not path.is_file():
-                continue
-            files += 1
-            relative = path.relative_to(root)
-            module = module_of(relative)
-            if module not in ALLOWED:
-                found.append(f"{relative}: folder '{module}' is not a module")
-                continue
-            found += problems_in(relative, module)
-            if path.suffix == ".h" and "#pragma once" not in path.read_text(encoding="utf-8"):
-                found.append(f"{relative}: #pragma once is missing")
-    for line in found:
-        print(line)
+            if path.suffix in (".h", ".cpp") and path.is_file():
+                files += 1
+                problems = problems_in(path, path.relative_to(root / folder), root)
+                found += [f"{path.relative_to(root)}:{line}: {problem}" for line, problem in problems]
+    for problem in found:
+        print(problem)
     print(f"check: includes {'ok' if not found else 'BAD'} ({files} files, {len(found)} problems)")
     return 1 if found else 0
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "nonet/app/commands.h"
-#include "nonet/sim/world_episode.h"
+#include "nonet/sim/fidelity/fixed_episode.h"
 
 namespace nonet::app {
 namespace {

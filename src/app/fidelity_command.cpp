@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/app/commands.h"
-#include "nonet/sim/fidelity.h"
+#include "nonet/sim/fidelity/fidelity.h"
 
 namespace nonet::app {
 namespace {

@@ -16,6 +16,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/config/parameters.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/optimize/evaluator_mpi.h"
 #include "nonet/lab/optimize/optimization_run.h"
 #include "nonet/lab/optimize/optimize_report.h"

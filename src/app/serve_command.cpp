@@ -6,7 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/app/commands.h"
-#include "nonet/sim/server.h"
+#include "nonet/sim/server/server.h"
 
 namespace nonet::app {
 
@@ -53,8 +53,9 @@ sim::Settings settingsFrom(const ServeArguments& arguments) {
 int runServe(ServeArguments& arguments) {
   const sim::Settings settings = settingsFrom(arguments);
   if (arguments.listSettings) {
-    for (const sim::SettingView& setting : sim::listSettings(settings)) {
-      fmt::print("{:32} {:>18}  {}\n", setting.name, setting.value, setting.text);
+    for (const config::ParameterView& setting : sim::listSettings(settings)) {
+      fmt::print("{:32} {:>18} {:4} {}\n", setting.key, setting.text,
+                 config::unitName(setting.declaration.unit), setting.declaration.text);
     }
     return 0;
   }

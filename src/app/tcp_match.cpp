@@ -18,7 +18,7 @@
 #include "nonet/app/agent_processes.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/play_client.h"
-#include "nonet/sim/server.h"
+#include "nonet/sim/server/server.h"
 
 namespace nonet::app {
 namespace {

@@ -11,7 +11,7 @@
 
 namespace nonet::config::detail {
 
-/// The present value; booleans as 0 or 1.
+/// The present value; booleans as 0 or 1, texts as 0.
 double valueOf(const Field& field);
 
 /// Stores a value after checking its range; ParameterError that begins with `where` ("file:line: ").
@@ -19,6 +19,9 @@ void assign(const Field& field, double value, const std::string& where);
 
 /// Shortest text that reads back to the same bits, as a TOML real.
 std::string realText(double value);
+
+/// The value as people write it, without unit.
+std::string valueText(const Field& field);
 
 /// "0.03 m".
 std::string quantityText(double value, Unit unit);

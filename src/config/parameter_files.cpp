@@ -82,6 +82,11 @@ class Reader {
 
   static void readValue(const Field& field, const toml::node& node, const std::string& where) {
     const Unit unit = field.declaration.unit;
+    if (field.text != nullptr) {
+      if (!node.is_string()) throw wrongType(field, node, where, "a text in quotes");
+      *field.text = node.as_string()->get();
+      return;
+    }
     if (field.boolean != nullptr) {
       if (!node.is_boolean()) throw wrongType(field, node, where, "true or false");
       return assign(field, node.as_boolean()->get() ? 1.0 : 0.0, where);

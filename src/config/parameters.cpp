@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <set>
 
 #include "fields.h"
+#include "units.h"
 
 namespace nonet::config::detail {
 
@@ -29,24 +31,56 @@ bool isBareKey(std::string_view key) {
   });
 }
 
+std::string quoted(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\u{:04x}", c);
+      continue;
+    }
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
 std::string tomlValue(const Field& field) {
-  if (field.boolean != nullptr) return *field.boolean ? "true" : "false";
-  if (field.integer != nullptr) return fmt::format("{}", *field.integer);
-  return realText(*field.real);
+  if (field.text != nullptr) return quoted(*field.text);
+  return field.real != nullptr ? realText(*field.real) : valueText(field);
 }
 
 void appendField(const Field& field, std::string& toml) {
   const Declaration& declaration = field.declaration;
   toml += fmt::format("# {}", declaration.text);
-  if (field.boolean == nullptr) {
+  if (field.boolean == nullptr && field.text == nullptr) {
     toml += fmt::format(" ({} .. {})", quantityText(declaration.range.low, declaration.unit),
                         quantityText(declaration.range.high, declaration.unit));
   }
   toml += fmt::format("\n{} = {}\n", lastPart(field.key), tomlValue(field));
 }
 
-bool sameBits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+bool sameValue(const Field& a, const Field& b) {
+  if (a.text != nullptr) return *a.text == *b.text;
+  return std::bit_cast<std::uint64_t>(valueOf(a)) == std::bit_cast<std::uint64_t>(valueOf(b));
+}
+
+std::optional<bool> switchFrom(std::string_view text) {
+  if (text == "true" || text == "1" || text == "on") return true;
+  if (text == "false" || text == "0" || text == "off") return false;
+  return std::nullopt;
+}
+
+/// A number in the declared unit, or one with a unit of its own.
+double numberFrom(const Field& field, std::string_view text) {
+  const Unit unit = field.declaration.unit;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  if (const auto quantity = parseQuantity(text, unit)) return *quantity;
+  const std::string units =
+      unit == Unit::None ? ""
+                         : fmt::format(" in {}, or one with a unit: {}", unitName(unit), acceptedUnits(unit));
+  throw ParameterError(fmt::format("{} = '{}' is not a number: use one{}", field.key, text, units));
 }
 
 // Levenshtein's distance.
@@ -65,12 +99,26 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+const Field& fieldNamed(const std::vector<Field>& fields, std::string_view key) {
+  for (const Field& field : fields) {
+    if (field.key == key) return field;
+  }
+  throw ParameterError(
+      fmt::format("unknown parameter '{}': did you mean '{}'?", key, nearestName(fields, key)));
+}
+
 }  // namespace
 
 double valueOf(const Field& field) {
   if (field.boolean != nullptr) return *field.boolean ? 1.0 : 0.0;
   if (field.integer != nullptr) return *field.integer;
-  return *field.real;
+  return field.real != nullptr ? *field.real : 0.0;
+}
+
+std::string valueText(const Field& field) {
+  if (field.text != nullptr) return *field.text;
+  if (field.boolean != nullptr) return *field.boolean ? "true" : "false";
+  return fmt::format("{}", valueOf(field));
 }
 
 std::string realText(double value) {
@@ -117,6 +165,9 @@ void assign(const Field& field, double value, const std::string& where) {
     *field.boolean = value != 0.0;
     return;
   }
+  if (field.text != nullptr) {
+    throw ParameterError(fmt::format("{}{} is a text, not {}", where, field.key, value));
+  }
   // Written so that "not a number" is outside too.
   if (!(value >= declaration.range.low && value <= declaration.range.high)) {
     throw ParameterError(fmt::format(
@@ -143,18 +194,29 @@ std::vector<ParameterView> views(const std::vector<Field>& fields) {
     view.declaration = field.declaration;
     if (field.integer != nullptr) view.kind = ParameterView::Kind::Integer;
     if (field.boolean != nullptr) view.kind = ParameterView::Kind::Boolean;
+    if (field.text != nullptr) view.kind = ParameterView::Kind::Text;
     view.value = valueOf(field);
+    view.text = valueText(field);
     list.push_back(std::move(view));
   }
   return list;
 }
 
 void set(const std::vector<Field>& fields, std::string_view key, double value) {
-  for (const Field& field : fields) {
-    if (field.key == key) return assign(field, value, "");
+  assign(fieldNamed(fields, key), value, "");
+}
+
+void setText(const std::vector<Field>& fields, std::string_view key, std::string_view text) {
+  const Field& field = fieldNamed(fields, key);
+  if (field.text != nullptr) {
+    *field.text = text;
+  } else if (field.boolean != nullptr) {
+    const std::optional<bool> on = switchFrom(text);
+    if (!on) throw ParameterError(fmt::format("{} = '{}' is neither true nor false", key, text));
+    *field.boolean = *on;
+  } else {
+    assign(field, numberFrom(field, text), "");
   }
-  throw ParameterError(
-      fmt::format("unknown parameter '{}': did you mean '{}'?", key, nearestName(fields, key)));
 }
 
 std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* unlessEqualTo) {
@@ -170,7 +232,7 @@ std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* u
     std::string body;
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (groupOf(fields[i].key) != group) continue;
-      if (unlessEqualTo != nullptr && sameBits(valueOf(fields[i]), valueOf((*unlessEqualTo)[i]))) continue;
+      if (unlessEqualTo != nullptr && sameValue(fields[i], (*unlessEqualTo)[i])) continue;
       appendField(fields[i], body);
     }
     if (body.empty()) continue;
@@ -197,7 +259,7 @@ std::vector<std::string> declarationFaults(const std::vector<Field>& fields) {
       fault(field, "the name is kept for the origin of learned values");
     if (!isBareKey(lastPart(field.key))) fault(field, "the key needs letters, digits, '_' or '-' only");
     if (field.declaration.text.empty()) fault(field, "has no sentence");
-    if (field.boolean != nullptr) continue;
+    if (field.boolean != nullptr || field.text != nullptr) continue;
     if (!(range.low <= range.high)) fault(field, "the range is empty");
     const double value = valueOf(field);
     if (!(value >= range.low && value <= range.high)) fault(field, "the default is out of range");

@@ -20,6 +20,7 @@ struct Spelling {
 
 constexpr std::array<Spelling, 3> kLengths{{{"m", 1.0}, {"cm", 100.0}, {"mm", 1000.0}}};
 constexpr std::array<Spelling, 2> kAngles{{{"rad", 1.0}, {"deg", 1.0, true}}};
+constexpr std::array<Spelling, 1> kDegrees{{{"deg", 1.0}}};
 constexpr std::array<Spelling, 2> kTimes{{{"s", 1.0}, {"ms", 1000.0}}};
 constexpr std::array<Spelling, 3> kSpeeds{{{"m/s", 1.0}, {"cm/s", 100.0}, {"mm/s", 1000.0}}};
 constexpr std::array<Spelling, 2> kAngularSpeeds{{{"rad/s", 1.0}, {"deg/s", 1.0, true}}};
@@ -36,6 +37,8 @@ std::span<const Spelling> spellings(Unit unit) {
       return kLengths;
     case Unit::Radian:
       return kAngles;
+    case Unit::Degree:
+      return kDegrees;
     case Unit::Second:
       return kTimes;
     case Unit::MetrePerSecond:

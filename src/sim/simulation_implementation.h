@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "nonet/math/random.h"
-#include "nonet/sim/hearing.h"
-#include "nonet/sim/referee.h"
-#include "nonet/sim/sensors.h"
+#include "nonet/sim/referee/referee.h"
+#include "nonet/sim/referee/trainer.h"
+#include "nonet/sim/sensors/hearing.h"
+#include "nonet/sim/sensors/sensors.h"
 #include "nonet/sim/simulation.h"
-#include "nonet/sim/trainer.h"
 
 namespace nonet::sim {
 

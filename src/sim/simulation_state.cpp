@@ -3,8 +3,9 @@
 
 #include "nonet/protocol/percept_text.h"
 
-#include "simulation_implementation.h"
-#include "state_bytes.h"
+#include "sim/physics/hash.h"
+#include "sim/physics/state_bytes.h"
+#include "sim/simulation_implementation.h"
 
 namespace nonet::sim {
 
@@ -43,20 +44,6 @@ void plainParts(Agent& agent, Plain&& plain) {
   plain(agent.hasMade);
   plain(agent.hasSent);
 }
-
-class Hash {
- public:
-  void add(std::uint64_t value) {
-    // FNV-1a over the bytes.
-    for (int i = 0; i < 8; ++i) {
-      value_ = (value_ ^ ((value >> (8 * i)) & 0xff)) * 0x100000001b3ULL;
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
 
 }  // namespace
 

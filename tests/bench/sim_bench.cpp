@@ -2,7 +2,7 @@
 // processor time of one core.
 #include <benchmark/benchmark.h>
 
-#include "nonet/sim/world_episode.h"
+#include "nonet/sim/fidelity/fixed_episode.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
 #include "nonet/protocol/rounding.h"
-#include "nonet/sim/world.h"
+#include "nonet/sim/physics/world.h"
 
 namespace nonet::motion {
 namespace {

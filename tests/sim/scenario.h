@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "nonet/sim/referee_game_state.h"
+#include "nonet/sim/referee/game_state.h"
 #include "nonet/sim/simulation.h"
 
 namespace nonet::sim::test {

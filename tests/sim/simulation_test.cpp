@@ -10,9 +10,9 @@
 #include "nonet/math/angle.h"
 #include "nonet/protocol/percept_text.h"
 #include "nonet/protocol/rounding.h"
-#include "nonet/sim/server_lobby.h"
+#include "nonet/sim/server/lobby.h"
 
-#include "scenario.h"
+#include "sim/scenario.h"
 
 namespace nonet::sim::test {
 namespace {

@@ -13,9 +13,9 @@
 //   };
 //
 // Groups nest: `visit.group("walk", self.walk);` gives keys like "walk.stepHeight" (a TOML table).
-// Fields are double, int or bool. Values in files are SI numbers or texts with a unit: "17deg", "97mm",
-// "20ms", "1.5m/s", "30deg/s", "9.81m/s^2", "2N", "350g", "50Hz". Decimal units lose nothing: "97mm" is the
-// same double as 0.097. "17deg" is the double toRadians(17).
+// Fields are double, int, bool or std::string. Values in files are SI numbers or texts with a unit: "17deg",
+// "97mm", "20ms", "1.5m/s", "30deg/s", "9.81m/s^2", "2N", "350g", "50Hz". Decimal units lose nothing: "97mm"
+// is the same double as 0.097. "17deg" is the double toRadians(17).
 #pragma once
 
 #include <concepts>
@@ -32,6 +32,7 @@ enum class Unit : std::uint8_t {
   None,
   Metre,
   Radian,
+  Degree,  // for the server's own variables; all else counts in radians
   Second,
   MetrePerSecond,
   RadianPerSecond,
@@ -64,8 +65,9 @@ struct Declaration {
 struct ParameterView {
   std::string key;
   Declaration declaration;
-  enum class Kind : std::uint8_t { Real, Integer, Boolean } kind = Kind::Real;
-  double value = 0.0;
+  enum class Kind : std::uint8_t { Real, Integer, Boolean, Text } kind = Kind::Real;
+  double value = 0.0;  // 0 for texts
+  std::string text;    // the value as people write it, without unit
 };
 
 /// what() names file and line, and says what to do.
@@ -83,6 +85,7 @@ struct Field {
   double* real = nullptr;
   int* integer = nullptr;
   bool* boolean = nullptr;
+  std::string* text = nullptr;
 };
 
 class Collector {
@@ -90,6 +93,7 @@ class Collector {
   void operator()(const Declaration& declaration, double& field) { add(declaration).real = &field; }
   void operator()(const Declaration& declaration, int& field) { add(declaration).integer = &field; }
   void operator()(const Declaration& declaration, bool& field) { add(declaration).boolean = &field; }
+  void operator()(const Declaration& declaration, std::string& field) { add(declaration).text = &field; }
   template <class Group>
   void group(std::string_view name, Group& group) {
     const std::string outer = prefix_;
@@ -111,6 +115,7 @@ std::vector<ParameterView> views(const std::vector<Field>& fields);
 void overlayFile(const std::vector<Field>& fields, const std::string& path);
 void overlayText(const std::vector<Field>& fields, std::string_view toml, const std::string& nameForErrors);
 void set(const std::vector<Field>& fields, std::string_view key, double value);
+void setText(const std::vector<Field>& fields, std::string_view key, std::string_view text);
 std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* unlessEqualTo);
 std::vector<std::string> declarationFaults(const std::vector<Field>& fields);
 
@@ -149,6 +154,12 @@ void overlayText(Parameters& parameters, std::string_view toml, const std::strin
 template <class Parameters>
 void setParameter(Parameters& parameters, std::string_view key, double value) {
   detail::set(fieldsOf(parameters), key, value);
+}
+
+/// The same with a value as people type it: "0.03", "3cm", "true" (also "on" and "1"), or a text.
+template <class Parameters>
+void setParameterText(Parameters& parameters, std::string_view key, std::string_view text) {
+  detail::setText(fieldsOf(parameters), key, text);
 }
 
 /// What is wrong with the declarations themselves, one line each, for tests: a key used twice or not usable

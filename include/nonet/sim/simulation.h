@@ -14,9 +14,9 @@
 
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
-#include "nonet/sim/referee_player.h"
-#include "nonet/sim/settings.h"
-#include "nonet/sim/world.h"
+#include "nonet/sim/physics/world.h"
+#include "nonet/sim/referee/player.h"
+#include "nonet/sim/settings/settings.h"
 
 namespace nonet::sim {
 

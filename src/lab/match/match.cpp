@@ -6,8 +6,8 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/protocol/play_mode.h"
-#include "nonet/sim/monitor.h"
-#include "nonet/sim/server_lobby.h"
+#include "nonet/sim/server/lobby.h"
+#include "nonet/sim/server/monitor.h"
 
 namespace nonet::lab {
 namespace {

@@ -9,7 +9,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "nonet/lab/optimize/learned_file.h"
+#include "nonet/lab/common/atomic_file.h"
 
 namespace nonet::lab {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 
@@ -200,17 +198,6 @@ std::vector<Repetition> repeatLearned(const std::string& file, const std::string
         {origin, measure(findTask(origin.task), parameters, origin.seeds, settings, threads)});
   }
   return repetitions;
-}
-
-void writeAtomically(const std::string& path, const std::string& text) {
-  const std::string fresh = path + ".new";
-  {
-    std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
-    file << text;
-    file.flush();
-    if (!file) throw std::runtime_error(fmt::format("cannot write {}: is the disk full?", fresh));
-  }
-  std::filesystem::rename(fresh, path);
 }
 
 }  // namespace nonet::lab

@@ -14,6 +14,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "nonet/lab/common/atomic_file.h"
+
 namespace nonet::lab {
 
 using nlohmann::json;

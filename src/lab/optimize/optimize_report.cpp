@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/optimize/optimization_run.h"
 
 namespace nonet::lab {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "lab/parallel.h"
+#include "lab/common/parallel.h"
 
 namespace nonet::lab {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "lab/parallel.h"
+#include "lab/common/parallel.h"
 
 namespace nonet::lab {
 

@@ -8,7 +8,7 @@
 
 #include "nonet/math/angle.h"
 
-#include "lab/parallel.h"
+#include "lab/common/parallel.h"
 
 namespace nonet::lab {
 

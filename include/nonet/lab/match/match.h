@@ -14,7 +14,7 @@
 #include "nonet/agent/agent.h"
 #include "nonet/agent/agent_setup.h"
 #include "nonet/sim/invariants.h"
-#include "nonet/sim/settings.h"
+#include "nonet/sim/settings/settings.h"
 #include "nonet/sim/simulation.h"
 
 namespace nonet::lab {

@@ -60,7 +60,4 @@ struct Repetition {
 };
 std::vector<Repetition> repeatLearned(const std::string& file, const std::string& dataFolder, int threads);
 
-/// Writes the whole text to a new file beside `path`, then renames it: readers see the old or the new one.
-void writeAtomically(const std::string& path, const std::string& text);
-
 }  // namespace nonet::lab

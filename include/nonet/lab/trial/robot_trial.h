@@ -19,7 +19,7 @@
 #include "nonet/motion/joint_control.h"
 #include "nonet/motion/motion.h"
 #include "nonet/motion/parameters.h"
-#include "nonet/sim/world.h"
+#include "nonet/sim/physics/world.h"
 #include "nonet/world/world_model.h"
 
 namespace nonet::lab {

@@ -1,0 +1,193 @@
+// Self-collision (server facts 4.10): box colliders of one robot that overlap freeze the joints of their
+// limbs.
+#include <cmath>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "nonet/sim/referee/fouls.h"
+
+#include "sim/physics/scene.h"
+
+namespace nonet::sim {
+
+namespace {
+
+using model::BodyId;
+using model::JointId;
+
+// True if `axis` separates the boxes. The server does not normalise cross products, so that a nearly parallel
+// pair of edges always separates (server facts 7.1, quirk 12).
+bool separates(const Vector3f& axis, const Vector3f& between, const ScenePose& a, const Vector3f& halfA,
+               const ScenePose& b, const Vector3f& halfB, float tolerance) {
+  float reach = 0.0F;
+  for (int i = 0; i < 3; ++i) {
+    reach += std::abs((a.rotation.col(i) * halfA[i]).dot(axis)) +
+             std::abs((b.rotation.col(i) * halfB[i]).dot(axis));
+  }
+  return std::abs(between.dot(axis)) + tolerance > reach;
+}
+
+bool boxesOverlap(const ScenePose& a, const Vector3f& sizeA, const ScenePose& b, const Vector3f& sizeB,
+                  float tolerance) {
+  const Vector3f between = b.position - a.position;
+  const Vector3f halfA = sizeA * 0.5F;
+  const Vector3f halfB = sizeB * 0.5F;
+  const auto separated = [&](const Vector3f& axis) {
+    return separates(axis, between, a, halfA, b, halfB, tolerance);
+  };
+  for (int i = 0; i < 3; ++i) {
+    if (separated(a.rotation.col(i)) || separated(b.rotation.col(i))) return false;
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (separated(a.rotation.col(i).cross(b.rotation.col(j)))) return false;
+    }
+  }
+  return true;
+}
+
+enum class Limb { Torso, RArm, LArm, RLeg, LLeg };
+
+Limb limbOf(BodyId body) {
+  switch (body) {
+    case BodyId::RUpperArm:
+    case BodyId::RLowerArm:
+      return Limb::RArm;
+    case BodyId::LUpperArm:
+    case BodyId::LLowerArm:
+      return Limb::LArm;
+    case BodyId::RThigh:
+    case BodyId::RShank:
+    case BodyId::RFoot:
+    case BodyId::RToe:
+      return Limb::RLeg;
+    case BodyId::LThigh:
+    case BodyId::LShank:
+    case BodyId::LFoot:
+    case BodyId::LToe:
+      return Limb::LLeg;
+    default:
+      return Limb::Torso;
+  }
+}
+
+void appendJoints(Limb limb, std::vector<JointId>& joints) {
+  const auto range = [&joints](JointId first, JointId last) {
+    for (std::size_t i = model::index(first); i <= model::index(last); ++i)
+      joints.push_back(model::jointAt(i));
+  };
+  switch (limb) {
+    case Limb::RArm:
+      return range(JointId::RArm1, JointId::RArm4);
+    case Limb::LArm:
+      return range(JointId::LArm1, JointId::LArm4);
+    case Limb::RLeg:
+      return range(JointId::RLeg1, JointId::RLeg7);
+    case Limb::LLeg:
+      return range(JointId::LLeg1, JointId::LLeg7);
+    case Limb::Torso:
+      return;
+  }
+}
+
+// Neighbours that the referee does not look at.
+bool excluded(BodyId a, BodyId b) {
+  const auto pair = [a, b](BodyId x, BodyId y) { return (a == x && b == y) || (a == y && b == x); };
+  return pair(BodyId::Torso, BodyId::RThigh) || pair(BodyId::Torso, BodyId::LThigh) ||
+         pair(BodyId::RThigh, BodyId::RShank) || pair(BodyId::LThigh, BodyId::LShank) ||
+         pair(BodyId::RShank, BodyId::RFoot) || pair(BodyId::LShank, BodyId::LFoot) ||
+         pair(BodyId::RFoot, BodyId::RToe) || pair(BodyId::LFoot, BodyId::LToe);
+}
+
+Vector3f serverSize(const model::BodySpec& body) {
+  return scene::extentsInServerAxes(body.shape.size).cast<float>();
+}
+
+}  // namespace
+
+void Fouls::judgeSelfCollisions(TeamSide side) {
+  const float tolerance = static_cast<float>(c_.settings.selfCollisionsTolerance);
+  for (const Player* player : c_.team(side)) {
+    std::vector<const model::BodySpec*> boxes;
+    for (const model::BodySpec& body : model::robotModel(player->robotType).bodies()) {
+      if (body.collider && body.shape.kind == model::ShapeKind::Box) boxes.push_back(&body);
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const ScenePose& a = c_.world.bodyPose(player->robot, boxes[i]->id);
+      for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+        if (excluded(boxes[i]->id, boxes[j]->id)) continue;
+        const ScenePose& b = c_.world.bodyPose(player->robot, boxes[j]->id);
+        if (boxesOverlap(a, serverSize(*boxes[i]), b, serverSize(*boxes[j]), tolerance)) {
+          selfCollision(*player, boxes[i]->id, boxes[j]->id);
+        }
+      }
+    }
+  }
+}
+
+void Fouls::selfCollision(const Player& player, BodyId first, BodyId second) {
+  const Settings& s = c_.settings;
+  const float now = c_.game.time();
+  const std::string who =
+      fmt::format("Team {} Pl {}", std::string_view(c_.game.teamName(player.side)), player.unum);
+  if (s.printSelfCollisions) {
+    spdlog::debug("self-collision at {:.2f}: {} {} {}", now, who, model::bodyName(first),
+                  model::bodyName(second));
+  }
+  writeSelfCollision(
+      fmt::format("Collision GTime {} {} {} {}", now, who, model::bodyName(first), model::bodyName(second)));
+  if (!s.foulOnSelfCollisions) return;
+
+  if (s.selfCollisionBeamPenalty) {
+    PlayerRecord& record = c_.records.of(player);
+    if (now - record.lastSelfCollision <= s.selfCollisionBeamCooldownTime) return;
+    record.lastSelfCollision = now;
+    countFoul(record, FoulType::SelfCollision);
+    writeSelfCollision(fmt::format("Foul {} GTime {}", who, now));
+    return;
+  }
+  std::vector<JointId> joints;
+  appendJoints(limbOf(first), joints);
+  appendJoints(limbOf(second), joints);
+  auto& frozenAt = c_.records.of(player).jointFrozenAt;
+  const float rest = static_cast<float>(s.selfCollisionJointFrozenTime + s.selfCollisionJointThawTime);
+  const model::RobotModel& robot = model::robotModel(player.robotType);
+  bool foul = false;
+  for (const JointId joint : joints) {
+    float& last = frozenAt[model::index(joint)];
+    if (!robot.has(joint) || (last != kNeverFrozen && now - last <= rest)) continue;
+    foul = true;
+    last = now;
+    c_.world.freezeJoint(player.robot, joint, true);
+  }
+  if (!foul) return;
+  c_.recordFoul(FoulType::SelfCollision, player);
+  writeSelfCollision(fmt::format("Foul {} GTime {}", who, now));
+}
+
+void Fouls::writeSelfCollision(const std::string& line) {
+  if (!c_.settings.writeSelfCollisionsToFile) return;
+  if (!selfCollisionFile_.is_open()) {
+    selfCollisionFile_.open(c_.settings.selfCollisionRecordFilename, std::ios::app);
+  }
+  selfCollisionFile_ << line << std::endl;
+}
+
+void Fouls::thawJoints(bool all) {
+  const Settings& s = c_.settings;
+  if (!s.foulOnSelfCollisions || s.selfCollisionBeamPenalty) return;
+  const float frozen = static_cast<float>(s.selfCollisionJointFrozenTime);
+  const float rest = static_cast<float>(s.selfCollisionJointFrozenTime + s.selfCollisionJointThawTime);
+  for (const Player& player : c_.players) {
+    auto& frozenAt = c_.records.of(player).jointFrozenAt;
+    for (std::size_t i = 0; i < frozenAt.size(); ++i) {
+      if (frozenAt[i] < 0.0F) continue;
+      const float passed = c_.game.time() - frozenAt[i];
+      if (all || passed >= frozen) c_.world.freezeJoint(player.robot, model::jointAt(i), false);
+      if (all || passed >= rest) frozenAt[i] = -1000.0F;
+    }
+  }
+}
+
+}  // namespace nonet::sim

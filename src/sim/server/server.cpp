@@ -1,0 +1,229 @@
+#include "nonet/sim/server/server.h"
+
+#include <asio/post.hpp>
+#include <spdlog/spdlog.h>
+
+#include "nonet/protocol/percept_text.h"
+
+#include "sim/server/server_implementation.h"
+
+namespace nonet::sim {
+
+namespace {
+
+const auto kCycle = std::chrono::round<SteadyClock::duration>(std::chrono::duration<double>(kCycleTime));
+constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as silent
+
+}  // namespace
+
+Server::Implementation::Implementation(const Settings& settings, std::uint64_t s, const ServerOptions& o)
+    : options(o),
+      seed(s),
+      simulation(settings, s),
+      work(asio::make_work_guard(io)),
+      agentAcceptor(listenOn(io, o.address, o.agentPort, "agents")),
+      monitors(io, simulation, o.address, o.monitorPort),
+      signals(io),
+      lobbyOpen(o.players > 0) {
+  if (!o.monitorLog.empty()) log.emplace(simulation, o.monitorLog);
+  if (o.handleSignals) {
+    signals.add(SIGINT);
+    signals.add(SIGTERM);
+    signals.async_wait([this](std::error_code error, int signal) {
+      if (error) return;
+      spdlog::info("server: ends on signal {}", signal);
+      stopping = true;
+    });
+  }
+  acceptAgents();
+}
+
+// Server facts 1.2.
+void Server::Implementation::cycle() {
+  pace();
+  if (options.lockStep) waitForAnswers();
+  if (stopping) return;
+  executeTrainerCommands();
+  deliverCommands();
+  simulation.beginCycle();
+  sendSenses();
+  simulation.finishCycle();
+  ++cycles;
+  noticeSilence();
+  reap();
+  if (cycles % 2 == 0) statistics.droppedMessages += monitors.sendMessages();
+  if (log) log->cycle();
+  if (callback) callback(simulation);
+  if (!options.endWithMatch || !matchIsOver()) return;
+  if (options.lockStep) waitForAnswers();  // nobody's last message is cut off by the end of the connection
+  stopping = true;
+}
+
+void Server::Implementation::pace() {
+  io.poll();
+  // Lock-step without a robot has nobody to wait for; real time keeps it from running away.
+  const bool idle =
+      std::none_of(agents.begin(), agents.end(), [](const auto& link) { return link->sensesSent > 0; });
+  if (!options.realTime && !(options.lockStep && idle)) {
+    nextCycle = SteadyClock::now();
+    return;
+  }
+  nextCycle += kCycle;
+  const auto now = SteadyClock::now();
+  if (nextCycle < now) nextCycle = now;  // time that is lost is not caught up
+  while (!stopping && SteadyClock::now() < nextCycle) io.run_one_until(nextCycle);
+  io.poll();
+}
+
+void Server::Implementation::waitForAnswers() {
+  const auto deadline = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
+                                                 std::chrono::duration<double>(options.answerTimeout));
+  const auto allAnswered = [this] {
+    return std::all_of(agents.begin(), agents.end(), [](const auto& link) {
+      return !link->owesAnswer || link->givenUp || link->connection->dead() || link->hasAnswered();
+    });
+  };
+  while (!stopping && !allAnswered()) {
+    if (io.run_one_until(deadline) == 0) giveUpWaiting();
+  }
+}
+
+void Server::Implementation::giveUpWaiting() {
+  for (const auto& link : agents) {
+    if (!link->owesAnswer || link->givenUp || link->connection->dead() || link->hasAnswered()) continue;
+    link->givenUp = true;
+    ++statistics.timeouts;
+    spdlog::warn("server: {} has not answered for {} s: the match goes on without waiting for it",
+                 describe(*link), options.answerTimeout);
+  }
+}
+
+void Server::Implementation::deliverCommands() {
+  for (const auto& link : agents) {
+    if (link->agent == kNoAgent) continue;
+    // In lock-step a cycle takes exactly what belongs to the answer, however fast the rest arrives.
+    bool more = true;
+    while (more && !link->inbox.empty()) {
+      const AgentLink::Received& received = link->inbox.front();
+      if (received.effectors.syn && received.afterSense == link->sensesSent) {
+        if (link->givenUp) spdlog::info("server: {} answers again", describe(*link));
+        link->givenUp = false;
+        more = !options.lockStep || !link->owesAnswer;
+        link->owesAnswer = false;
+      }
+      simulation.actAsReceived(link->agent, received.effectors);
+      link->inbox.pop_front();
+    }
+  }
+}
+
+void Server::Implementation::sendSenses() {
+  for (const auto& link : agents) {
+    if (const protocol::Percept* percept = simulation.sense(link->agent)) sendSense(*link, *percept);
+  }
+}
+
+void Server::Implementation::sendSense(AgentLink& link, const protocol::Percept& percept) {
+  if (link.connection->dead()) return;
+  protocol::writePercept(percept, text);
+  if (link.connection->send(text)) {
+    if (link.dropped > 0)
+      spdlog::info("server: {} reads again, it lost {} messages", describe(link), link.dropped);
+    link.dropped = 0;
+    ++link.sensesSent;
+    link.owesAnswer = options.lockStep && !link.lobby;
+    return;
+  }
+  if (link.connection->dead()) return;
+  ++statistics.droppedMessages;
+  if (++link.dropped == 1) spdlog::warn("server: {} reads too slowly and loses messages", describe(link));
+}
+
+// In lock-step nobody can be silent unnoticed. By the clock the others play on; the log says who does not.
+void Server::Implementation::noticeSilence() {
+  if (options.lockStep) return;
+  for (const auto& link : agents) {
+    if (link->silent || link->sensesSent == 0 || SteadyClock::now() - link->heard < kSilence) continue;
+    link->silent = true;
+    spdlog::warn("server: {} has sent nothing for {} s", describe(*link), kSilence.count());
+  }
+}
+
+// Server facts 1.10, and robots that a trainer has removed.
+void Server::Implementation::reap() {
+  for (const auto& link : agents) {
+    if (link->agent != kNoAgent && !link->connection->dead() && !simulation.isConnected(link->agent)) {
+      link->connection->close();
+    }
+    if (!link->connection->dead()) continue;
+    spdlog::info("server: {} is gone: {}", describe(*link), link->connection->reason());
+    ++(link->connection->refused() ? statistics.refused : statistics.lost);
+    simulation.disconnect(link->agent);
+  }
+  std::erase_if(agents, [](const auto& link) { return link->connection->dead(); });
+  monitors.reap();
+}
+
+void Server::Implementation::executeTrainerCommands() {
+  if (cycles % 2 != 0 || monitors.executeCommands()) return;
+  spdlog::info("server: ends by a trainer's command");
+  stopping = true;
+}
+
+bool Server::Implementation::matchIsOver() {
+  if (simulation.match().playMode != protocol::PlayMode::GameOver) cyclesAfterEnd = 0;
+  constexpr long kLinger = 50;  // cycles, so that everybody hears of the end
+  return simulation.match().playMode == protocol::PlayMode::GameOver && ++cyclesAfterEnd > kLinger;
+}
+
+Server::Server(const Settings& settings, std::uint64_t seed, const ServerOptions& options)
+    : implementation_(std::make_unique<Implementation>(settings, seed, options)) {}
+
+Server::~Server() {
+  for (const auto& link : implementation_->agents) link->connection->close();
+  implementation_->monitors.closeAll();
+}
+
+std::uint16_t Server::agentPort() const {
+  return implementation_->agentAcceptor.local_endpoint().port();
+}
+std::uint16_t Server::monitorPort() const {
+  return implementation_->monitors.port();
+}
+
+void Server::run() {
+  Implementation& self = *implementation_;
+  self.nextCycle = SteadyClock::now();
+  while (!self.stopping) {
+    if (self.lobbyOpen) {
+      self.waitInLobby();
+    } else {
+      self.cycle();
+    }
+  }
+  for (const auto& link : self.agents) link->connection->close();
+  self.monitors.closeAll();
+  self.agentAcceptor.close();
+  self.monitors.stopAccepting();
+  self.signals.cancel();
+  self.io.poll();
+}
+
+void Server::stop() {
+  implementation_->stopping = true;
+  asio::post(implementation_->io, [] {});
+}
+
+void Server::onCycle(std::function<void(const Simulation&)> callback) {
+  implementation_->callback = std::move(callback);
+}
+
+const Simulation& Server::simulation() const {
+  return implementation_->simulation;
+}
+
+Server::Statistics Server::statistics() const {
+  return implementation_->statistics;
+}
+
+}  // namespace nonet::sim

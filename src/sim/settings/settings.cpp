@@ -1,0 +1,100 @@
+#include "nonet/sim/settings/settings.h"
+
+#include <fmt/format.h>
+
+#include "nonet/sim/settings/declarations.h"
+
+namespace nonet::sim {
+
+namespace {
+
+/// A settings file: the names as they are, or in a [Soccer] table, as the server's script has them.
+struct SettingsFile {
+  Settings settings;
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    Settings::describe(self.settings, visit);
+    visit.group("Soccer", self.settings);
+  }
+};
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+}
+
+}  // namespace
+
+void Settings::senseTruth() {
+  senseMyPos = true;
+  senseMyOrien = true;
+  senseBallPos = true;
+}
+
+void Settings::removeNoise() {
+  visionNoise = false;
+  beamNoiseXY = 0.0;
+  beamNoiseAngle = 0.0;
+}
+
+void Settings::setField(std::string_view preset) {
+  if (preset == "30x20") {
+    fieldLength = 30.0;
+    fieldWidth = 20.0;
+    freeKickDistance = 2.0;
+    freeKickMoveDist = 2.5;
+  } else if (preset == "21x14") {
+    fieldLength = 21.0;
+    fieldWidth = 14.0;
+    freeKickDistance = 1.8;
+    freeKickMoveDist = 2.3;
+  } else {
+    throw config::ParameterError(fmt::format("unknown field '{}': known are 30x20 and 21x14", preset));
+  }
+}
+
+void Settings::set(std::string_view name, std::string_view value) {
+  config::setParameterText(*this, name, value);
+}
+
+void Settings::setAssignment(std::string_view assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string_view::npos) {
+    throw config::ParameterError(fmt::format("'{}' is not of the form Name=Value", assignment));
+  }
+  set(trimmed(assignment.substr(0, equals)), trimmed(assignment.substr(equals + 1)));
+}
+
+void Settings::overlayFile(const std::string& path) {
+  SettingsFile file{*this};
+  config::overlayFile(file, path);
+  *this = file.settings;
+}
+
+void Settings::overlayText(std::string_view toml, const std::string& nameForErrors) {
+  SettingsFile file{*this};
+  config::overlayText(file, toml, nameForErrors);
+  *this = file.settings;
+}
+
+WorldSettings Settings::world() const {
+  WorldSettings world;
+  world.solver = quickSolver ? WorldSettings::Solver::Quick : WorldSettings::Solver::Exact;
+  world.threads = threads;
+  world.threadPatience = std::chrono::microseconds(threadPatience);
+  world.fieldLength = fieldLength;
+  world.fieldWidth = fieldWidth;
+  world.goalWidth = goalWidth;
+  world.goalDepth = goalDepth;
+  world.goalHeight = goalHeight;
+  world.ballRadius = ballRadius;
+  world.ballMass = ballMass;
+  return world;
+}
+
+std::vector<config::ParameterView> listSettings(const Settings& settings) {
+  return config::listParameters(settings);
+}
+
+}  // namespace nonet::sim
