@@ -1,0 +1,67 @@
+// Fifth layer of the walk: what brings a robot back from a far tilt.
+//
+// A body that tilts with level feet commanded stands on their edges, and on the low side the swing foot never
+// clears the ground: small gains that suit a walk keep a robot stepping at that tilt until it falls. So
+// beyond a limit other gains act, on what the tilt is beyond it.
+//
+// Needs: the tilt. Gives: legs turned against the torso, a shifted landing of the swing foot.
+#pragma once
+
+#include "nonet/config/parameters.h"
+#include "nonet/motion/walk/measurement.h"
+
+namespace nonet::motion {
+
+struct RecoveryParameters {
+  double farTilt = 0.2;
+  double levelPitchGain = 0.0;
+  double levelRollGain = 0.0;
+  double stepPitchGain = 0.0;
+  double stepRollGain = 0.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"farTilt",
+           Unit::Radian,
+           {0.0, 3.2},
+           search(0.1, 0.35),
+           "Tilt beyond which the gains for recovering act, on what is beyond it"},
+          self.farTilt);
+    visit({"levelPitchGain",
+           Unit::None,
+           {-3.0, 3.0},
+           search(0.0, 1.0),
+           "How far the legs turn against the torso in rad per rad of pitch beyond farTilt: with 1 they stay "
+           "upright"},
+          self.levelPitchGain);
+    visit({"levelRollGain",
+           Unit::None,
+           {-3.0, 3.0},
+           search(0.0, 1.0),
+           "How far the legs turn against the torso in rad per rad of roll beyond farTilt: with 1 they stay "
+           "upright"},
+          self.levelRollGain);
+    visit({"stepPitchGain",
+           Unit::Metre,
+           {-2.0, 2.0},
+           search(0.0, 0.3),
+           "How far the swing foot lands ahead in m per rad of pitch beyond farTilt"},
+          self.stepPitchGain);
+    visit({"stepRollGain",
+           Unit::Metre,
+           {-2.0, 2.0},
+           search(0.0, 0.3),
+           "How far the swing foot lands to the right in m per rad of roll to the right beyond farTilt"},
+          self.stepRollGain);
+  }
+};
+
+/// Whether recovery acts.
+bool stumbles(const RecoveryParameters& parameters, const Tilt& tilt);
+/// The lean to command instead of `lean`.
+Attitude levelled(const RecoveryParameters& parameters, const Attitude& lean, const Tilt& tilt);
+/// Shift of the swing foot's landing, m, forward and to the left.
+Vector2 landingShift(const RecoveryParameters& parameters, const Tilt& tilt);
+
+}  // namespace nonet::motion
