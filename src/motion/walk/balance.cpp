@@ -7,6 +7,8 @@ namespace nonet::motion {
 
 namespace {
 
+// A standing robot that leans more than this steps in place until it is calm.
+constexpr double kStepTilt = 0.15;     // rad
 constexpr double kUprightTilt = 0.08;  // rad; a stand takes care of what sways less
 
 }  // namespace
@@ -27,8 +29,8 @@ double stepShare(const BalanceParameters& p, double comError) {
   return std::clamp((p.comErrorMost - comError) / range, 0.0, 1.0);
 }
 
-bool leansTooFar(const BalanceParameters& p, const Tilt& tilt) {
-  return tilt.largest() > p.stepTilt;
+bool leansTooFar(const Tilt& tilt) {
+  return tilt.largest() > kStepTilt;
 }
 
 bool isCalm(const BalanceParameters& p, const WalkMeasurement& measurement) {
@@ -60,10 +62,9 @@ void CommandHistory::add(const Command& command) {
   size_ = std::min(size_ + 1, kMost);
 }
 
-const CommandHistory::Command* CommandHistory::before(double delay) const {
-  const auto cycles = static_cast<std::size_t>(std::lround(delay / kCycleTime));
-  if (cycles >= size_) return nullptr;
-  return &commands_[(last_ + kMost - cycles) % kMost];
+const CommandHistory::Command* CommandHistory::measuredNow() const {
+  if (size_ <= kDelay) return nullptr;
+  return &commands_[(last_ + kMost - kDelay) % kMost];
 }
 
 }  // namespace nonet::motion

@@ -55,7 +55,7 @@ void WalkEngine::moveGait(const WalkParameters& p, double cycleTime, const Pose2
                         .walk = walk,
                         .stepShare = stepShare(p.balance, measurement_.comError),
                         .stumbles = stumbles(p.recovery, lastTilt),
-                        .leans = leansTooFar(p.balance, tilt),
+                        .leans = leansTooFar(tilt),
                         .calm = isCalm(p.balance, measurement_),
                         .leanToLeft = -tilt.roll});
   if (standing()) return;
@@ -111,7 +111,7 @@ void WalkEngine::measureCom(const world::BodyState& body, const WalkParameters& 
   history_.add({.p_SCom = comOverSole(*model_, commandedBodies_, gait.stance, lean),
                 .stance = gait.stance,
                 .torsoYaw = torsoYaw(p.posture, gait)});
-  const CommandHistory::Command* then = history_.before(p.balance.comDelay);
+  const CommandHistory::Command* then = history_.measuredNow();
   if (then == nullptr) return;
   measurement_.torsoYaw = then->torsoYaw;
   trace_.p_SComDesired = then->p_SCom;

@@ -23,7 +23,7 @@ double torsoYaw(const WalkPostureParameters& p, const GaitState& gait) {
 }
 
 ArmAttitude walkingArm(const WalkPostureParameters& p, double otherFoot) {
-  return {.pitch = p.armPitch + p.armSwing * otherFoot, .yaw = p.armYaw, .roll = p.armRoll, .elbow = p.elbow};
+  return {.pitch = p.armPitch + p.armSwing * otherFoot, .yaw = p.armYaw, .elbow = p.elbow};
 }
 
 }  // namespace nonet::motion

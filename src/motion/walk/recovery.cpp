@@ -17,12 +17,12 @@ bool stumbles(const RecoveryParameters& p, const Tilt& tilt) {
 }
 
 Attitude levelled(const RecoveryParameters& p, const Attitude& lean, const Tilt& tilt) {
-  return {.pitch = lean.pitch + p.levelPitchGain * beyond(tilt.pitch, p.farTilt),
-          .roll = lean.roll + p.levelRollGain * beyond(tilt.roll, p.farTilt)};
+  return {.pitch = lean.pitch + p.levelGain * beyond(tilt.pitch, p.farTilt),
+          .roll = lean.roll + p.levelGain * beyond(tilt.roll, p.farTilt)};
 }
 
 Vector2 landingShift(const RecoveryParameters& p, const Tilt& tilt) {
-  return {p.stepPitchGain * beyond(tilt.pitch, p.farTilt), -p.stepRollGain * beyond(tilt.roll, p.farTilt)};
+  return {p.stepGain * beyond(tilt.pitch, p.farTilt), -p.stepGain * beyond(tilt.roll, p.farTilt)};
 }
 
 }  // namespace nonet::motion

@@ -33,16 +33,15 @@ TEST(Approach, SlowsDownOnlyToStop) {
 
 // Far away it turns to the target, near to the target's heading, and in between to a mean of both.
 TEST(Approach, FacesTheTargetUntilItIsNear) {
-  ApproachParameters p;
-  p.facingDistance = 0.6;
+  const ApproachParameters p;
   const GaitParameters gait;
   const auto turn = [&](double distance) {
     return speedTowards(p, gait, Pose2(0.0, distance, -0.2), true).rotation / p.turnGain;
   };
   const double most = gait.maxStepTheta / Gait::stepDuration(gait) / p.turnGain;
-  EXPECT_NEAR(turn(0.29), -0.2, 1e-12);
-  EXPECT_NEAR(turn(0.6), std::min(most, 0.5 * kPi), 1e-12);
-  EXPECT_NEAR(turn(0.33), -0.2 + 0.1 * (0.5 * kPi + 0.2), 1e-12);
+  EXPECT_NEAR(turn(0.24), -0.2, 1e-12);
+  EXPECT_NEAR(turn(0.5), std::min(most, 0.5 * kPi), 1e-12);
+  EXPECT_NEAR(turn(0.275), -0.2 + 0.1 * (0.5 * kPi + 0.2), 1e-12);
 }
 
 }  // namespace

@@ -8,10 +8,8 @@ namespace {
 RecoveryParameters parameters() {
   RecoveryParameters p;
   p.farTilt = 0.2;
-  p.levelPitchGain = 0.5;
-  p.levelRollGain = 0.25;
-  p.stepPitchGain = 0.3;
-  p.stepRollGain = 0.1;
+  p.levelGain = 0.5;
+  p.stepGain = 0.3;
   return p;
 }
 
@@ -30,9 +28,9 @@ TEST(Recovery, ActsOnWhatIsBeyondTheLimit) {
     const Tilt tilt{.pitch = sign * 0.5, .roll = sign * 0.3};
     const Attitude lean = levelled(parameters(), {.pitch = 0.1, .roll = 0.05}, tilt);
     EXPECT_NEAR(lean.pitch, 0.1 + sign * 0.5 * 0.3, 1e-12);
-    EXPECT_NEAR(lean.roll, 0.05 + sign * 0.25 * 0.1, 1e-12);
+    EXPECT_NEAR(lean.roll, 0.05 + sign * 0.5 * 0.1, 1e-12);
     EXPECT_NEAR(landingShift(parameters(), tilt).x(), sign * 0.3 * 0.3, 1e-12);
-    EXPECT_NEAR(landingShift(parameters(), tilt).y(), -sign * 0.1 * 0.1, 1e-12) << "y is to the left";
+    EXPECT_NEAR(landingShift(parameters(), tilt).y(), -sign * 0.3 * 0.1, 1e-12) << "y is to the left";
     EXPECT_TRUE(stumbles(parameters(), tilt));
   }
 }
@@ -40,7 +38,7 @@ TEST(Recovery, ActsOnWhatIsBeyondTheLimit) {
 // With a gain of 1 legs that are commanded against the torso hang as they would below one at the limit.
 TEST(Recovery, LevelledLegsStayUpright) {
   RecoveryParameters p = parameters();
-  p.levelPitchGain = 1.0;
+  p.levelGain = 1.0;
   for (const double tilt : {0.25, 0.4, 0.6}) {
     const Attitude lean = levelled(p, Attitude{}, {.pitch = tilt});
     const Matrix3 R_GLegs = rotationOf({.pitch = tilt, .roll = 0.0}) * rotationOf(lean).transpose();

@@ -10,7 +10,6 @@ namespace nonet::motion {
 struct ApproachParameters {
   double speedGain = 3.0;
   double turnGain = 4.0;
-  double facingDistance = 0.5;
   double smoothing = 0.0;
 
   template <class Self, class Visitor>
@@ -28,13 +27,6 @@ struct ApproachParameters {
            search(1.0, 10.0),
            "Turning speed in rad/s per rad of angle to the wanted heading"},
           self.turnGain);
-    visit({"facingDistance",
-           Unit::Metre,
-           {0.0, 10.0},
-           fixed,
-           "Distance from which on the robot faces the target; from half of it the robot takes the target's "
-           "heading"},
-          self.facingDistance);
     visit({"smoothing",
            Unit::Second,
            {0.0, 5.0},

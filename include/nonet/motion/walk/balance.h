@@ -16,8 +16,6 @@ namespace nonet::motion {
 struct BalanceParameters {
   double comErrorNormal = 0.03;
   double comErrorMost = 0.08;
-  double comDelay = 0.04;
-  double stepTilt = 0.15;
   double tiltLookAhead = 0.0;
   double hipPitchGain = 0.0;
   double hipPitchRateGain = 0.0;
@@ -57,18 +55,6 @@ struct BalanceParameters {
            search(0.02, 0.3),
            "Error of the centre of mass at which steps are zero (err_max)"},
           self.comErrorMost);
-    visit({"comDelay",
-           Unit::Second,
-           {0.0, 0.14},
-           fixed,
-           "Time from the command of a centre of mass to its measurement"},
-          self.comDelay);
-    visit({"stepTilt",
-           Unit::Radian,
-           {0.02, 3.2},
-           fixed,
-           "Tilt beyond which a standing robot steps in place until it is calm"},
-          self.stepTilt);
     visit({"tiltLookAhead",
            Unit::Second,
            {-0.1, 0.2},
@@ -178,7 +164,7 @@ Tilt tiltAgainst(const BalanceParameters& parameters, const Attitude& torso, con
 /// Share of the wanted step that is made.
 double stepShare(const BalanceParameters& parameters, double comError);
 /// Whether a standing robot has to step.
-bool leansTooFar(const BalanceParameters& parameters, const Tilt& tilt);
+bool leansTooFar(const Tilt& tilt);
 /// Whether a robot that steps in place may stand.
 bool isCalm(const BalanceParameters& parameters, const WalkMeasurement& measurement);
 
@@ -201,12 +187,13 @@ class CommandHistory {
   };
 
   void add(const Command& command);
-  /// That of `delay` seconds before the last one; null while there is none.
-  const Command* before(double delay) const;
+  /// Whose effect is measured now; null while there is none.
+  const Command* measuredNow() const;
   void reset() { size_ = 0; }
 
  private:
-  static constexpr std::size_t kMost = 8;
+  static constexpr std::size_t kDelay = 2;  // cycles from the last command to its measurement
+  static constexpr std::size_t kMost = kDelay + 1;
   std::array<Command, kMost> commands_{};
   std::size_t size_ = 0;
   std::size_t last_ = 0;

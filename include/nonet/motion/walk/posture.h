@@ -18,7 +18,6 @@ struct WalkPostureParameters {
   double accelerationRoll = 0.0;
   double armPitch = -1.57;
   double armYaw = 0.15;
-  double armRoll = 0.0;
   double elbow = 0.2;
   double armSwing = 1.0;
 
@@ -85,7 +84,6 @@ struct WalkPostureParameters {
           self.armPitch);
     visit({"armYaw", Unit::Radian, {0.0, 1.6}, search(0.0, 1.0), "How far the arms point outwards"},
           self.armYaw);
-    visit({"armRoll", Unit::Radian, {-2.0, 2.0}, fixed, "How far the upper arms are rolled"}, self.armRoll);
     visit({"elbow", Unit::Radian, {0.0, 1.5}, search(0.0, 1.5), "How far the elbows are bent"}, self.elbow);
     visit({"armSwing",
            Unit::None,

@@ -14,10 +14,8 @@ namespace nonet::motion {
 
 struct RecoveryParameters {
   double farTilt = 0.2;
-  double levelPitchGain = 0.0;
-  double levelRollGain = 0.0;
-  double stepPitchGain = 0.0;
-  double stepRollGain = 0.0;
+  double levelGain = 0.0;
+  double stepGain = 0.0;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -28,32 +26,19 @@ struct RecoveryParameters {
            search(0.1, 0.35),
            "Tilt beyond which the gains for recovering act, on what is beyond it"},
           self.farTilt);
-    visit({"levelPitchGain",
+    visit({"levelGain",
            Unit::None,
            {-3.0, 3.0},
            search(0.0, 1.0),
-           "How far the legs turn against the torso in rad per rad of pitch beyond farTilt: with 1 they stay "
+           "How far the legs turn against the torso in rad per rad of tilt beyond farTilt: with 1 they stay "
            "upright"},
-          self.levelPitchGain);
-    visit({"levelRollGain",
-           Unit::None,
-           {-3.0, 3.0},
-           search(0.0, 1.0),
-           "How far the legs turn against the torso in rad per rad of roll beyond farTilt: with 1 they stay "
-           "upright"},
-          self.levelRollGain);
-    visit({"stepPitchGain",
+          self.levelGain);
+    visit({"stepGain",
            Unit::Metre,
            {-2.0, 2.0},
            search(0.0, 0.3),
-           "How far the swing foot lands ahead in m per rad of pitch beyond farTilt"},
-          self.stepPitchGain);
-    visit({"stepRollGain",
-           Unit::Metre,
-           {-2.0, 2.0},
-           search(0.0, 0.3),
-           "How far the swing foot lands to the right in m per rad of roll to the right beyond farTilt"},
-          self.stepRollGain);
+           "How far the swing foot lands to the side of the fall in m per rad of tilt beyond farTilt"},
+          self.stepGain);
   }
 };
 
