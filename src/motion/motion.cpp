@@ -5,7 +5,7 @@
 
 #include "nonet/motion/fall_control.h"
 #include "nonet/motion/head_control.h"
-#include "nonet/motion/walk_control.h"
+#include "nonet/motion/walk/control.h"
 
 namespace nonet::motion {
 

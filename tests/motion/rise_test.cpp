@@ -8,7 +8,7 @@
 #include "nonet/motion/fall_control.h"
 #include "nonet/motion/skill_library.h"
 #include "nonet/motion/skill_player.h"
-#include "nonet/motion/walk_engine.h"
+#include "nonet/motion/walk/engine.h"
 
 #include "motion/trial_setup.h"
 

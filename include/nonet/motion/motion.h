@@ -10,7 +10,7 @@
 #include "nonet/motion/motion_state.h"
 #include "nonet/motion/parameters.h"
 #include "nonet/motion/request.h"
-#include "nonet/motion/walk_control.h"
+#include "nonet/motion/walk/control.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::motion {

@@ -10,7 +10,7 @@
 
 namespace nonet::motion {
 
-/// Which parameter set the walk uses; Automatic: by target and ball (walk_control.h).
+/// Which parameter set the walk uses; Automatic: by target and ball (walk/control.h).
 enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Sidestep, Positioning };
 
 /// A stable crouch.

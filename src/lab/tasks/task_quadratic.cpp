@@ -15,7 +15,9 @@ class QuadraticTask final : public Task {
  public:
   std::string_view name() const override { return "quadratic"; }
   std::string_view description() const override { return "a quadratic function of the walk parameters"; }
-  std::vector<std::string> searchedKeys() const override { return {"motion.walk.maxStep", "motion.walk.z"}; }
+  std::vector<std::string> searchedKeys() const override {
+    return {"motion.walk.gait.maxStep", "motion.walk.gait.stepHeight", "motion.walk.pendulum.torsoHeight"};
+  }
   bool hidden() const override { return true; }
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,

@@ -188,7 +188,7 @@ TEST(Configuration, SurvivesItsFile) {
   OptimizationConfig config;
   config.task = "quadratic";
   config.restarts = RestartScheme::Ipop;
-  config.keys = {"motion.walk.z"};
+  config.keys = {"motion.walk.gait."};
   Provenance origin;
   origin.task = "sprint";
   origin.fitness = 0.1;

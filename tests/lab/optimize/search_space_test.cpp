@@ -11,7 +11,7 @@ namespace {
 
 TEST(SearchSpace, StartGivesTheBaseParametersBack) {
   agent::AgentParameters base;
-  base.motion.sets.goToTarget.zStep = 0.0437;
+  base.motion.sets.goToTarget.gait.stepHeight = 0.0437;
   const SearchSpace space(base, {"motion.walk."});
   const agent::AgentParameters same = space.apply(space.start());
   const auto before = config::listParameters(base);
@@ -39,15 +39,17 @@ TEST(SearchSpace, SpansSearchRangeByOneAndStaysInTheDeclaredRange) {
 }
 
 TEST(SearchSpace, MovesOnlyWhatItNames) {
-  const SearchSpace space(agent::AgentParameters{}, {"motion.walk.zStep", "motion.sprint.fG"});
-  ASSERT_EQ(space.keys(), (std::vector<std::string>{"motion.walk.zStep", "motion.sprint.fG"}));
+  const SearchSpace space(agent::AgentParameters{},
+                          {"motion.walk.gait.stepHeight", "motion.sprint.gait.liftBegin"});
+  ASSERT_EQ(space.keys(),
+            (std::vector<std::string>{"motion.walk.gait.stepHeight", "motion.sprint.gait.liftBegin"}));
   Eigen::VectorXd point = space.start();
   point[0] += 0.1;
   const agent::AgentParameters moved = space.apply(point);
   const motion::WalkParameters defaults;
-  EXPECT_NE(moved.motion.sets.goToTarget.zStep, defaults.zStep);
-  EXPECT_EQ(moved.motion.sets.goToTarget.ySep, defaults.ySep);
-  EXPECT_THROW(SearchSpace(agent::AgentParameters{}, {"motion.walk.zStp"}), std::runtime_error);
+  EXPECT_NE(moved.motion.sets.goToTarget.gait.stepHeight, defaults.gait.stepHeight);
+  EXPECT_EQ(moved.motion.sets.goToTarget.gait.footSeparation, defaults.gait.footSeparation);
+  EXPECT_THROW(SearchSpace(agent::AgentParameters{}, {"motion.walk.gait.stepHight"}), std::runtime_error);
 }
 
 }  // namespace

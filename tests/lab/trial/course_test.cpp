@@ -21,8 +21,8 @@ agent::AgentParameters clumsyParameters() {
   agent::AgentParameters parameters = initialParameters();
   for (motion::WalkParameters* walk :
        {&parameters.motion.sets.goToTarget, &parameters.motion.sets.positioning}) {
-    walk->zStep = 0.25;
-    walk->maxStepX = 0.25;
+    walk->gait.stepHeight = 0.25;
+    walk->gait.maxStepX = 0.25;
   }
   return parameters;
 }
@@ -160,7 +160,7 @@ TEST(Sidestep, WalksTheTargetsWithAHeldHeadingOnly) {
 
 TEST(Course, ANoisyTargetIsReachedSoonerWhenItIsAveraged) {
   agent::AgentParameters averaging = initialParameters();
-  averaging.motion.sets.goToTarget.targetSmoothing = 0.6;
+  averaging.motion.sets.goToTarget.approach.smoothing = 0.6;
   double without = 0.0;
   double with = 0.0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {

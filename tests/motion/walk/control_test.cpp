@@ -1,4 +1,4 @@
-#include "nonet/motion/walk_control.h"
+#include "nonet/motion/walk/control.h"
 
 #include <cmath>
 
@@ -84,7 +84,7 @@ TEST_F(WalkControlTest, TakesThePositioningSetUntilAStumbleIsOver) {
   const auto setAt = [&](double error) {
     setFor(walk);
     // The engine's error is that against the lean of the step in force, and it learns of it a cycle later.
-    world.body.pitch += error - control.engine().trace().pitchError;
+    world.body.pitch += error - control.engine().measurement().tilt.pitch;
     setFor(walk);
     return setFor(walk);
   };

@@ -8,8 +8,7 @@
 #pragma once
 
 #include "nonet/motion/target_filter.h"
-#include "nonet/motion/walk_engine.h"
-#include "nonet/motion/walk_parameters.h"
+#include "nonet/motion/walk/engine.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::motion {
@@ -118,7 +117,6 @@ class WalkControl {
   bool isCrowded(const world::WorldState& world) const;
   bool stumbles() const;
   Pose2 speedFor(const MotionRequest& request) const;
-  Pose2 speedTowards(const WalkTo& request) const;
 
   WalkSets sets_;
   WalkSelection selection_;

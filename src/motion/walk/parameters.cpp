@@ -1,4 +1,4 @@
-#include "nonet/motion/walk_parameters.h"
+#include "nonet/motion/walk/parameters.h"
 
 #include <array>
 #include <cstddef>
@@ -13,6 +13,10 @@ struct Addresses {
   std::array<const double*, kMost> fields{};
   std::size_t count = 0;
   void operator()(const config::Declaration&, const double& field) { fields.at(count++) = &field; }
+  template <class Group>
+  void group(std::string_view /*name*/, const Group& group) {
+    Group::describe(group, *this);
+  }
 };
 
 Addresses addressesOf(const WalkParameters& parameters) {

@@ -1,4 +1,4 @@
-#include "nonet/motion/walk_control.h"
+#include "nonet/motion/walk/control.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,21 +60,25 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& wa
   engine_.update(world.body, active_, speedFor(request), walk, targets);
 }
 
+// As seen from the walk frame, in which the torso turns to and fro.
 Pose2 WalkControl::speedFor(const MotionRequest& request) const {
+  const Pose2 X_WR(Vector2::Zero(), engine_.measurement().torsoYaw);
   Pose2 speed;
   if (const auto* walk = std::get_if<WalkVelocity>(&request)) {
     speed = walk->velocity;
-    speed.translation = Pose2(Vector2::Zero(), engine_.trace().torsoYaw).rotate(speed.translation);
+    speed.translation = X_WR.rotate(speed.translation);
   }
-  if (const auto* walk = std::get_if<WalkTo>(&request)) speed = speedTowards(*walk);
+  if (const auto* walk = std::get_if<WalkTo>(&request)) {
+    speed = speedTowards(active_.approach, active_.gait, X_WR * walk->target, walk->stopAtTarget);
+  }
   return speed;
 }
 
 MotionRequest WalkControl::calmed(const world::WorldState& world, const MotionRequest& wanted) {
   MotionRequest request = wanted;
   if (auto* walk = std::get_if<WalkTo>(&request)) {
-    walk->target =
-        filter_.update(walk->target, world.body.odometryStep, world.body.cycleTime, active_.targetSmoothing);
+    walk->target = filter_.update(walk->target, world.body.odometryStep, world.body.cycleTime,
+                                  active_.approach.smoothing);
   } else {
     filter_.reset();
   }
@@ -101,19 +105,18 @@ WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionReque
 bool WalkControl::sidesteps(const MotionRequest& request) const {
   const bool already = set_ == WalkSet::Sidestep;
   const Pose2 speed = speedFor(request);
-  const double stepTime = engine_.stepTime(active_);
+  const double stepTime = Gait::stepDuration(active_.gait);
   const double forward = speed.translation.x();
   const double aside = speed.translation.y();
   if (speed.translation.norm() * stepTime < kLeastSidestep) return false;
-  const double turn = std::abs(speed.rotation) * stepTime / std::max(active_.maxStepTheta, 1e-6);
+  const double turn = std::abs(speed.rotation) * stepTime / std::max(active_.gait.maxStepTheta, 1e-6);
   return std::abs(std::atan2(aside, forward)) > (already ? 0.75 : 1.0) * selection_.sidestepAngle &&
          turn < (already ? 2.0 : 1.0) * selection_.sidestepTurn;
 }
 
 bool WalkControl::stumbles() const {
   const double share = set_ == WalkSet::Positioning ? kCalm : 1.0;
-  const WalkTrace& trace = engine_.trace();
-  return std::max(std::abs(trace.pitchError), std::abs(trace.rollError)) > share * selection_.positioningTilt;
+  return engine_.measurement().tilt.largest() > share * selection_.positioningTilt;
 }
 
 bool WalkControl::isCrowded(const world::WorldState& world) const {
@@ -124,34 +127,6 @@ bool WalkControl::isCrowded(const world::WorldState& world) const {
   const auto self = static_cast<std::size_t>(std::max(world.game.unum, 0));
   return world.self.localized && (anyWithin(world.teammates, p_FR, distance, self) ||
                                   anyWithin(world.opponents, p_FR, distance, world.opponents.size()));
-}
-
-// Walks and turns at the same time, always [MacAlpine 2012a, section 4.2]: straight at the target as fast as
-// the set allows in that direction, turning towards it when far, to the target's heading when near.
-Pose2 WalkControl::speedTowards(const WalkTo& request) const {
-  const WalkParameters& p = active_;
-  // As seen from the walk frame, in which the torso turns to and fro.
-  const Pose2 X_WTarget = Pose2(Vector2::Zero(), engine_.trace().torsoYaw) * request.target;
-  const Vector2& target = X_WTarget.translation;
-  const double distance = target.norm();
-  const double bearing = distance > 1e-6 ? std::atan2(target.y(), target.x()) : 0.0;
-  const double turnDistance = std::max(p.targetTurnDistance, 1e-6);
-  const double far = std::clamp(2.0 * distance / turnDistance - 1.0, 0.0, 1.0);
-  const double angle = wrapAngle(X_WTarget.rotation + far * wrapAngle(bearing - X_WTarget.rotation));
-
-  const double stepTime = engine_.stepTime(p);
-  Pose2 speed;
-  speed.rotation =
-      std::clamp(p.targetTurnGain * angle, -p.maxStepTheta / stepTime, p.maxStepTheta / stepTime);
-  if (distance < 1e-6) return speed;
-  const Vector2 direction = target / distance;
-  const double maxX = direction.x() >= 0.0 ? p.maxStepX : p.maxStepXBack;
-  const double share =
-      std::hypot(direction.x() / std::max(maxX, 1e-6), direction.y() / std::max(p.maxStepY, 1e-6));
-  double most = 1.0 / (share * stepTime);
-  if (request.stopAtTarget) most = std::min(most, p.targetGain * distance);
-  speed.translation = most * direction;
-  return speed;
 }
 
 }  // namespace nonet::motion
