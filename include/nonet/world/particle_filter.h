@@ -57,8 +57,6 @@ class ParticleFilter {
 
   /// Spreads all particles over the field.
   void scatter(const FieldMap& map);
-  /// Puts a share of the particles around a pose.
-  void seedAround(const Pose2& X_WR, double positionSigma, double headingSigma, double share);
 
   void predict(const Pose2& X_step, double distanceNoise, double angleNoise);
 
