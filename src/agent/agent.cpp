@@ -52,16 +52,14 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
   }
 
   s.world = &s.worldModel.update(percept);
-  team::Intent intent = s.behavior.update(*s.world, s.motion.state());
-  if (intent.beam) {
-    if (s.config.startPose) intent.beam = s.config.startPose;
-    effectors.beam = intent.beam;
-    s.worldModel.expectBeam(*intent.beam);
+  const team::Action& action = s.behavior.update(*s.world, s.motion.state());
+  if (action.beam) {
+    effectors.beam = s.config.startPose ? s.config.startPose : action.beam;
+    s.worldModel.expectBeam(*effectors.beam);
     s.motion.expectPutDown();
   }
-  effectors.say = intent.say;
-  effectors.pass = intent.pass;
-  const motion::JointTargets& targets = s.motion.update(*s.world, intent.motion, intent.head);
+  effectors.say = action.say;
+  const motion::JointTargets& targets = s.motion.update(*s.world, action.motion, *action.head);
   s.control.update(s.world->body, targets, effectors);
   return effectors;
 }
@@ -71,6 +69,12 @@ const world::WorldState& Agent::world() const {
 }
 team::Role Agent::role() const {
   return stages_->behavior.role();
+}
+const team::Action& Agent::action() const {
+  return stages_->behavior.action();
+}
+void Agent::recordCandidates(bool on) {
+  stages_->behavior.recordCandidates(on);
 }
 const AgentConfig& Agent::config() const {
   return stages_->config;

@@ -10,8 +10,8 @@ using model::Side;
 
 namespace {
 
-// A skill that jumps in a circle without taking time must not hang the robot.
 constexpr double kBallRadius = 0.042;  // m, server facts 3.3
+// A skill that jumps in a circle without taking time must not hang the robot.
 constexpr int kMostInstructionsPerCycle = 1000;
 
 Matrix3 rotationOf(const Vector3& rollPitchYaw) {

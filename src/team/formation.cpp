@@ -4,8 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "nonet/team/set_play.h"
-
 namespace nonet::team {
 
 namespace {
@@ -26,7 +24,7 @@ struct PlaceRules {
   bool allows(int index, const Vector2& place) const {
     const Role role = static_cast<Role>(index);
     const bool back = role == Role::BackLeft || role == Role::BackRight;
-    if (role != Role::BackLeft && inOwnArea(place, 0.3)) return false;
+    if (role != Role::BackLeft && inOwnArea(place, parameters.areaMargin)) return false;
     const bool atOwnGoal = role == Role::BackRight && inOwnArea(formation.positions[0], 0.0);
     if (back && !atOwnGoal && beyondBall(place)) return false;
     for (int j = 0; j < index; ++j)
@@ -49,6 +47,7 @@ struct PlaceRules {
 // Near the lines and the own goal places come together: the less important one takes the nearest place that
 // is free.
 void spread(Formation& formation, const world::FieldGeometry& field, const FormationParameters& parameters) {
+  // A grid that is fine enough; no play depends on its step.
   constexpr double kRing = 0.25;  // m
   constexpr int kRings = 20;
   constexpr int kDirections = 16;
@@ -102,7 +101,9 @@ Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometr
   return formation;
 }
 
-Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field) {
+// A table, not parameters: eleven places that are read as a drawing.
+Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
+                  const SetPlayParameters& parameters) {
   // For the 30 x 20 field; other sizes are scaled. The kicking side may stand at the ball, the other one must
   // be outside the centre circle (radius 2).
   constexpr int kKickOffTaker = 9;
@@ -130,7 +131,7 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field) 
   const double y = ownKickOff ? place.ownY : place.otherY;
   const bool atBall = std::abs(x) < field.circleRadius && std::abs(y) < field.circleRadius;
   const bool taker = ownKickOff && unum == kKickOffTaker;
-  return {x < -3.0 ? x * scaleX : x, atBall ? y : y * scaleY, taker ? kickOffPassAngle() : 0.0};
+  return {x < -3.0 ? x * scaleX : x, atBall ? y : y * scaleY, taker ? parameters.kickOffAngle : 0.0};
 }
 
 }  // namespace nonet::team

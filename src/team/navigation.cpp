@@ -10,19 +10,8 @@ namespace nonet::team {
 
 namespace {
 
-constexpr double kLookAhead = 0.5;   // s by which the others are thought to walk on
-constexpr double kHorizon = 2.0;     // m of the way that must be clear
-constexpr double kFallenRoom = 0.2;  // m more around somebody who lies on the ground
-constexpr double kAtBall = 0.6;      // m from the ball: takes part in the duel
-constexpr double kBodyRoom = 0.35;   // m between two torsos that just touch when both walk
-constexpr double kNarrow = 0.72;     // share of the usual room in a narrow passage
-constexpr double kNarrowCost = 0.3;  // m of free way that it must be worth
+// Step of the directions that are compared: fine enough beside the width of a robot.
 constexpr double kHeadingStep = toRadians(15);
-constexpr double kNear = 0.7;          // m from the target, where its heading counts
-constexpr double kCloseEnough = 0.12;  // m
-constexpr double kFacing = 0.25;       // rad
-constexpr double kDetourStep = 1.0;    // m, distance of the next point on a way around
-constexpr double kSlowStep = 0.25;  // m, the same close to others: the walk slows down towards a near target
 
 struct Obstacle {
   Vector2 p_F;
@@ -35,14 +24,16 @@ struct Obstacles {
   std::span<const Obstacle> all() const { return {items.data(), count}; }
 };
 
-Obstacles obstaclesFor(const world::WorldState& world, const Caution& caution) {
+Obstacles obstaclesFor(const world::WorldState& world, const NavigationParameters& parameters,
+                       const Caution& caution) {
   Obstacles obstacles;
   const Vector2 ball = world.ball.p_FB.head<2>();
   const auto add = [&](const world::PlayerState& player, double room) {
     if (!player.known) return;
-    if (player.fallen) room += kFallenRoom;
-    if (caution.duel && (player.X_FP.translation - ball).norm() < kAtBall) room = kBodyRoom;
-    obstacles.items[obstacles.count++] = {player.X_FP.translation + kLookAhead * player.v_FP, room};
+    if (player.fallen) room += parameters.fallenRoom;
+    if (caution.duel && (player.X_FP.translation - ball).norm() < parameters.atBall)
+      room = parameters.bodyRoom;
+    obstacles.items[obstacles.count++] = {player.X_FP.translation + parameters.lookAhead * player.v_FP, room};
   };
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {
     const auto i = static_cast<std::size_t>(unum);
@@ -56,7 +47,7 @@ Obstacles obstaclesFor(const world::WorldState& world, const Caution& caution) {
 
 // How far one can go in this direction before somebody's room begins; somebody whose room one is in already
 // bars the directions that lead nearer.
-double freeWay(const Vector2& start, const Vector2& direction, double length,
+double freeWay(const Vector2& start, const Vector2& direction, double length, double slip,
                std::span<const Obstacle> obstacles, double share = 1.0) {
   double free = length;
   for (const Obstacle& obstacle : obstacles) {
@@ -67,7 +58,7 @@ double freeWay(const Vector2& start, const Vector2& direction, double length,
     if (ahead <= 0.0) continue;
     if (squared < room * room) {
       // Along the edge of the room is allowed, so that one can slip past.
-      if (ahead > 0.2 * std::sqrt(squared)) free = 0.0;
+      if (ahead > slip * std::sqrt(squared)) free = 0.0;
       continue;
     }
     const double besides = squared - ahead * ahead;
@@ -94,14 +85,15 @@ struct Way {
 };
 
 // The direction nearest to the wanted one that is clear; of two equal ones that which the robot faces more.
-Way chooseWay(const world::WorldState& world, const Vector2& p_FTarget, std::span<const Obstacle> obstacles) {
+Way chooseWay(const world::WorldState& world, const NavigationParameters& parameters,
+              const Vector2& p_FTarget, std::span<const Obstacle> obstacles) {
   const Vector2 start = world.self.X_FR.translation;
   const double wanted = headingTo(world, p_FTarget);
-  const double need = std::min((p_FTarget - start).norm(), kHorizon);
+  const double need = std::min((p_FTarget - start).norm(), parameters.horizon);
   const auto direction = [](double angle) { return Vector2(std::cos(angle), std::sin(angle)); };
   Way best;
   best.heading = wanted;
-  if (freeWay(start, direction(wanted), need, obstacles) >= need - 1e-9) return best;
+  if (freeWay(start, direction(wanted), need, parameters.slip, obstacles) >= need - 1e-9) return best;
   best.straight = false;
   double bestScore = -std::numeric_limits<double>::infinity();
   const double facing = angleDifference(world.self.X_FR.rotation, wanted);
@@ -109,11 +101,13 @@ Way chooseWay(const world::WorldState& world, const Vector2& p_FTarget, std::spa
   for (int i = -count; i < count; ++i) {
     const double turn = i * kHeadingStep;
     // Between two that stand close together rather than back out of a trap.
-    for (const double share : {1.0, kNarrow}) {
-      const double free = freeWay(start, direction(wanted + turn), std::min(need, 1.0), obstacles, share);
-      const double score = free - 0.4 * std::abs(turn) - 0.1 * std::abs(wrapAngle(turn - facing)) -
-                           (share < 1.0 ? kNarrowCost : 0.0);
-      if (free <= 0.05 || score <= bestScore) continue;
+    for (const double share : {1.0, parameters.narrow}) {
+      const double free = freeWay(start, direction(wanted + turn), std::min(need, parameters.freeWay),
+                                  parameters.slip, obstacles, share);
+      const double score = free - parameters.turnCost * std::abs(turn) -
+                           parameters.facingCost * std::abs(wrapAngle(turn - facing)) -
+                           (share < 1.0 ? parameters.narrowCost : 0.0);
+      if (free <= parameters.leastWay || score <= bestScore) continue;
       bestScore = score;
       best.heading = wrapAngle(wanted + turn);
     }
@@ -122,9 +116,9 @@ Way chooseWay(const world::WorldState& world, const Vector2& p_FTarget, std::spa
   return best;
 }
 
-double roomLeft(const Vector2& start, std::span<const Obstacle> obstacles) {
+double roomLeft(const Vector2& start, double bodyRoom, std::span<const Obstacle> obstacles) {
   double left = std::numeric_limits<double>::infinity();
-  for (const Obstacle& obstacle : obstacles) left = std::min(left, (obstacle.p_F - start).norm() - kBodyRoom);
+  for (const Obstacle& obstacle : obstacles) left = std::min(left, (obstacle.p_F - start).norm() - bodyRoom);
   return left;
 }
 
@@ -135,27 +129,28 @@ double headingTo(const world::WorldState& world, const Vector2& p_F) {
   return std::atan2(way.y(), way.x());
 }
 
-motion::MotionRequest walkTo(const world::WorldState& world, const Pose2& X_FWanted, const Caution& caution) {
+motion::MotionRequest walkTo(const world::WorldState& world, const NavigationParameters& parameters,
+                             const Pose2& X_FWanted, const Caution& caution) {
   const Vector2 start = world.self.X_FR.translation;
-  const Obstacles obstacles = obstaclesFor(world, caution);
+  const Obstacles obstacles = obstaclesFor(world, parameters, caution);
   const Pose2 X_FTarget(outsideOfRooms(X_FWanted.translation, start, obstacles.all()), X_FWanted.rotation);
   const double distance = (X_FTarget.translation - start).norm();
-  const bool arrived = distance < kCloseEnough;
-  const bool crowded = roomLeft(start, obstacles.all()) < 0.1;
+  const bool arrived = distance < parameters.closeEnough;
+  const bool crowded = roomLeft(start, parameters.bodyRoom, obstacles.all()) < parameters.crowded;
   const Pose2 X_RF = world.self.X_FR.inverse();
   if (arrived && !crowded) {
     const motion::WalkTo last{X_RF * X_FTarget};
-    if (std::abs(last.target.rotation) < kFacing) return motion::Stand{};
+    if (std::abs(last.target.rotation) < parameters.facing) return motion::Stand{};
     return last;
   }
-  const Way way = chooseWay(world, X_FTarget.translation, obstacles.all());
+  const Way way = chooseWay(world, parameters, X_FTarget.translation, obstacles.all());
   if (!way.anywhere) return motion::Stand{};
   if (way.straight) {
-    const double heading = distance > kNear ? way.heading : X_FTarget.rotation;
+    const double heading = distance > parameters.headingDistance ? way.heading : X_FTarget.rotation;
     return motion::WalkTo{X_RF * Pose2(X_FTarget.translation, heading)};
   }
   // Around somebody: a step at a time, slowly where it is narrow. Giving way to somebody close needs no turn.
-  const double step = crowded ? kSlowStep : kDetourStep;
+  const double step = crowded ? parameters.slowStep : parameters.detourStep;
   const Vector2 next = start + step * Vector2(std::cos(way.heading), std::sin(way.heading));
   const double heading = crowded ? world.self.X_FR.rotation : way.heading;
   return motion::WalkTo{X_RF * Pose2(next, heading), crowded};

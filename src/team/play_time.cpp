@@ -9,10 +9,8 @@ namespace nonet::team {
 
 namespace {
 
-constexpr double kLongestRoll = 6.0;    // s that a rolling ball is followed
-constexpr double kCarryDistance = 0.8;  // m between a dribbler and its ball
-constexpr double kCarrySpeed = 0.15;    // m/s, slower ones hold it rather than carry it
-constexpr int kMeetings = 5;            // repetitions until place and time of the meeting agree
+// Most repetitions until place and time of the meeting agree; the way to a ball that lies still needs two.
+constexpr int kMeetings = 5;
 
 double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_FTarget,
                    const PaceParameters& pace) {
@@ -29,16 +27,16 @@ double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_F
 
 }  // namespace
 
-BallForecast::BallForecast(const world::WorldState& world)
-    : p_FB_(world.ball.p_FB.head<2>()), v_FB_(world.ball.v_FB.head<2>()) {
-  double nearest = kCarryDistance;
+BallForecast::BallForecast(const world::WorldState& world, const PaceParameters& pace)
+    : p_FB_(world.ball.p_FB.head<2>()), v_FB_(world.ball.v_FB.head<2>()), longestRoll_(pace.longestRoll) {
+  double nearest = pace.carryDistance;
   for (const world::PlayerState& opponent : world.opponents) {
     if (!opponent.known || opponent.fallen) continue;
     const Vector2 offset = p_FB_ - opponent.X_FP.translation;
     const double speed = opponent.v_FP.norm();
     // It dribbles if it walks after the ball; a ball that rolls away faster than that is lost to it.
-    const bool follows = offset.dot(opponent.v_FP) > 0.7 * offset.norm() * speed;
-    if (offset.norm() > nearest || speed < kCarrySpeed || !follows) continue;
+    const bool follows = offset.dot(opponent.v_FP) > pace.carryAlong * offset.norm() * speed;
+    if (offset.norm() > nearest || speed < pace.carrySpeed || !follows) continue;
     nearest = offset.norm();
     carried_ = true;
     v_FB_ = opponent.v_FP;
@@ -46,7 +44,7 @@ BallForecast::BallForecast(const world::WorldState& world)
 }
 
 Vector2 BallForecast::at(double seconds) const {
-  const double time = std::min(seconds, kLongestRoll);
+  const double time = std::min(seconds, longestRoll_);
   const double decay = world::kRollDecay;
   return p_FB_ + (carried_ ? time : (1.0 - std::exp(-decay * time)) / decay) * v_FB_;
 }
@@ -54,7 +52,11 @@ Vector2 BallForecast::at(double seconds) const {
 double timeToBall(const Runner& runner, const BallForecast& ball, const Vector2& p_FTarget,
                   const PaceParameters& pace) {
   double time = 0.0;
-  for (int i = 0; i < kMeetings; ++i) time = timeToPlace(runner, ball.at(time), p_FTarget, pace);
+  for (int i = 0; i < kMeetings; ++i) {
+    const double later = timeToPlace(runner, ball.at(time), p_FTarget, pace);
+    if (later == time) break;
+    time = later;
+  }
   return time;
 }
 

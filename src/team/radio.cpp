@@ -7,11 +7,6 @@
 
 namespace nonet::team {
 
-namespace {
-
-constexpr double kOldestBall = 5.0;  // s, older sightings are not worth the bits
-}  // namespace
-
 std::optional<InlineString<64>> Radio::update(const world::WorldState& world, const Tidings& tidings) {
   const bool before = inOwnSlot_;
   inOwnSlot_ = world.game.unum > 0 && protocol::saySlot(world.time) == world.game.unum;
@@ -21,10 +16,11 @@ std::optional<InlineString<64>> Radio::update(const world::WorldState& world, co
   protocol::SayMessage message;
   message.unum = world.game.unum;
   message.X_FR = world.self.X_FR;
-  message.sigma = world.self.localized ? std::sqrt(world.self.covariance.topLeftCorner<2, 2>().trace()) : 3.0;
+  message.sigma = world.self.localized ? std::sqrt(world.self.covariance.topLeftCorner<2, 2>().trace())
+                                       : parameters_.lostSigma;
   message.fallen = world::isFallen(world.body.posture);
   const double age = world.time - world.ball.lastSeen;
-  if (world.self.localized && world.ball.known && age < kOldestBall) {
+  if (world.self.localized && world.ball.known && age < parameters_.oldestBall) {
     message.ball = {world.ball.p_FB.head<2>(), world.ball.v_FB.head<2>(), std::max(age, 0.0)};
     message.timeToBall = tidings.timeToBall;
   }

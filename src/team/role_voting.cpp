@@ -6,14 +6,7 @@ namespace nonet::team {
 
 namespace {
 
-constexpr double kVoteAge = 1.0;         // s: each player speaks every 0.44 s, one message may get lost
-constexpr double kBlindPenalty = 4.0;    // s for a team mate that says nothing of playing the ball
-constexpr double kBannedPenalty = 60.0;  // s
-constexpr int kFirstField = 2;           // number 1 is the goalie, which has no vote to win
-
-const world::PlayerState& mate(const world::WorldState& world, int unum) {
-  return world.teammates[static_cast<std::size_t>(unum)];
-}
+constexpr int kFirstField = 2;  // number 1 is the goalie, which has no vote to win
 
 // The field players that are there, in the order of their numbers.
 struct Squad {
@@ -30,36 +23,36 @@ int playerOnBall(const protocol::RoleVote& vote) {
 
 }  // namespace
 
-void RoleVoting::update(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget,
-                        int banned, const TeamParameters& parameters) {
+void RoleVoting::update(const Situation& situation, int banned) {
+  const world::WorldState& world = situation.world;
   // A vote is cast when it is one's turn to speak, so that everybody counts the same votes.
   const bool inOwnSlot = protocol::saySlot(world.time) == world.game.unum;
   if (!world.self.localized || !world.ball.known) {
     vote_.reset();
   } else if (inOwnSlot && !inOwnSlot_) {
-    vote(world, formation, p_FTarget, banned, parameters);
+    vote(situation, banned);
   }
   inOwnSlot_ = inOwnSlot;
-  count(world, banned);
+  count(situation, banned);
 }
 
-void RoleVoting::vote(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget,
-                      int banned, const TeamParameters& parameters) {
-  const BallForecast forecast(world);
+void RoleVoting::vote(const Situation& situation, int banned) {
+  const world::WorldState& world = situation.world;
+  const AgreementParameters& parameters = situation.parameters.agreement;
   Squad squad;
   for (int unum = kFirstField; unum <= world::kTeamSize; ++unum) {
-    const world::PlayerState& player = mate(world, unum);
+    const auto number = static_cast<std::size_t>(unum);
+    const world::PlayerState& player = world.teammates[number];
     if (!player.known) continue;
     const std::size_t i = squad.count++;
     squad.unums[i] = unum;
     squad.places[i] = player.X_FP.translation;
-    squad.times[i] =
-        timeToBall({player.X_FP, player.headingKnown, player.fallen}, forecast, p_FTarget, parameters.pace);
-    const world::RadioReport& report = world.radio[static_cast<std::size_t>(unum)];
-    const bool silent = world.time - report.time < kVoteAge && !report.message.timeToBall;
-    if (silent) squad.times[i] += kBlindPenalty;
-    if (unum == banned) squad.times[i] += kBannedPenalty;
-    if (unum == onBall_) squad.times[i] -= parameters.keepBallTime;
+    squad.times[i] = situation.timeToBall[number];
+    const world::RadioReport& report = world.radio[number];
+    const bool silent = world.time - report.time < parameters.voteAge && !report.message.timeToBall;
+    if (silent) squad.times[i] += parameters.silentPenalty;
+    if (unum == banned) squad.times[i] += parameters.bannedPenalty;
+    if (unum == onBall_) squad.times[i] -= situation.parameters.keepBallTime;
   }
   if (squad.count == 0) return;
 
@@ -79,7 +72,7 @@ void RoleVoting::vote(const world::WorldState& world, const Formation& formation
       places[others++] = squad.places[i];
   }
   const Assignment assignment =
-      assigner_.assign({places.data(), others}, {formation.positions.data() + 1, others});
+      assigner_.assign({places.data(), others}, {situation.formation.positions.data() + 1, others});
   for (std::size_t i = 0; i < others; ++i) vote[index[i]] = static_cast<std::uint8_t>(assignment[i] + 1);
   // Whoever is not there gets what is left: a vote is a whole permutation.
   auto next = static_cast<std::uint8_t>(squad.count);
@@ -88,13 +81,15 @@ void RoleVoting::vote(const world::WorldState& world, const Formation& formation
   vote_ = vote;
 }
 
-void RoleVoting::count(const world::WorldState& world, int banned) {
+void RoleVoting::count(const Situation& situation, int banned) {
+  const world::WorldState& world = situation.world;
+  const double voteAge = situation.parameters.agreement.voteAge;
   std::array<const protocol::RoleVote*, world::kTeamSize> votes{};
   std::size_t number = 0;
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {
     const world::RadioReport& report = world.radio[static_cast<std::size_t>(unum)];
     const bool own = unum == world.game.unum;
-    const bool heard = !own && world.time - report.time < kVoteAge && report.message.vote;
+    const bool heard = !own && world.time - report.time < voteAge && report.message.vote;
     const protocol::RoleVote* vote = nullptr;
     if (own && vote_) vote = &*vote_;
     if (heard) vote = &*report.message.vote;

@@ -4,32 +4,20 @@
 
 namespace nonet::team {
 
-namespace {
-
-constexpr double kTakerReach = 1.2;    // m from the ball, in which the taker must be once the mode changes
-constexpr double kTouchReach = 0.24;   // m from torso to ball: foot, toe and radius of the ball
-constexpr double kTurnedReach = 0.45;  // m, for a ball that changed its way beside somebody
-constexpr double kLongest = 12.0;      // s; the mode of the game tells of no touch, so sooner or later the
-                                       // ban ends unseen
-constexpr double kDropBall = 14.5;  // s after which nobody took the set piece: the referee gave the ball free
-
-}  // namespace
-
 void TouchWatch::update(const world::WorldState& world) {
   const world::Phase phase = world.game.phase;
   if (phase != phase_) {
     const bool wasOwn = world::isOwnSetPiece(phase_) && phase_ != world::Phase::OwnPass;
     taker_ = 0;
-    if (phase == world::Phase::PlayOn && wasOwn && world.time - setPieceSince_ < kDropBall) findTaker(world);
-    if (world::isOwnSetPiece(phase)) setPieceSince_ = world.time;
+    if (phase == world::Phase::PlayOn && wasOwn && !world.game.ballDropped) findTaker(world);
     phase_ = phase;
   }
-  if (taker_ != 0 && (touchedByAnother(world) || world.time - takenAt_ > kLongest)) taker_ = 0;
+  if (taker_ != 0 && (touchedByAnother(world) || world.time - takenAt_ > parameters_.longest)) taker_ = 0;
 }
 
 void TouchWatch::findTaker(const world::WorldState& world) {
   const Vector2 ball = world.ball.p_FB.head<2>();
-  double nearest = kTakerReach;
+  double nearest = parameters_.takerReach;
   const auto consider = [&](const world::PlayerState& player, int number) {
     const double distance = (player.X_FP.translation - ball).norm();
     if (!player.known || distance > nearest) return;
@@ -46,8 +34,9 @@ void TouchWatch::findTaker(const world::WorldState& world) {
 
 bool TouchWatch::touchedByAnother(const world::WorldState& world) const {
   const Vector2 ball = world.ball.p_FB.head<2>();
-  const bool turned = world.ball.lastKick > takenAt_ + 0.5 && world.time - world.ball.lastKick < 0.1;
-  const double reach = turned ? kTurnedReach : kTouchReach;
+  const bool turned = world.ball.lastKick > takenAt_ + parameters_.turnedAfter &&
+                      world.time - world.ball.lastKick < parameters_.turnedFor;
+  const double reach = turned ? parameters_.turnedReach : parameters_.touchReach;
   const auto touches = [&](const world::PlayerState& player) {
     return player.known && (player.X_FP.translation - ball).norm() < reach;
   };

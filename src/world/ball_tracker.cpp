@@ -202,13 +202,11 @@ void BallTracker::fill(BallState& state, const SelfState& self, double time) con
   state.v_FB = ball.v_FB;
   state.p_RB = self.X_FR.inverse() * Vector2(ball.p_FB.head<2>());
   state.covariance = covariance_.topLeftCorner<2, 2>();
-  state.velocityCovariance = covariance_.bottomRightCorner<2, 2>();
   state.lastSeen = lastSeen_;
   state.lastReported = lastReported_;
   state.lastKick = lastKick_;
   const double sigma = std::sqrt(std::max(covariance_(0, 0), covariance_(1, 1)));
   state.known = started_ && sigma < kKnownSigma && time - std::max(lastSeen_, lastReported_) < kKnownAge;
-  state.p_FRest = restPlace(ball);
 }
 
 }  // namespace nonet::world

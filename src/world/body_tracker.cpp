@@ -112,7 +112,6 @@ void BodyTracker::readJoints(const protocol::Percept& percept, double dt, BodySt
 
 void BodyTracker::readForces(const protocol::Percept& percept, BodyState& state) {
   using protocol::ForceSensor;
-  double largestLoad = 0.0;
   for (std::size_t side = 0; side < 2; ++side) {
     const bool left = side == at(model::Side::Left);
     const auto& foot =
@@ -140,15 +139,6 @@ void BodyTracker::readForces(const protocol::Percept& percept, BodyState& state)
     state.footForce[side] = force;
     if (weight > 0.0) {
       contactPoint_[side] = moment / weight;
-      const Pose3 X_RS =
-          model::solePose(*model_, state.bodies, left ? model::Side::Left : model::Side::Right);
-      state.footPressure[side] = X_RS.inverse() * (X_RF * contactPoint_[side]);
-    } else {
-      state.footPressure[side].setZero();
-    }
-    if (force.z() > largestLoad) {
-      largestLoad = force.z();
-      state.supportSide = left ? model::Side::Left : model::Side::Right;
     }
   }
 }

@@ -11,7 +11,7 @@ namespace {
 using protocol::PlayMode;
 
 constexpr double kDropBallTime = 15.0;  // s, RuleDropBallTime (server facts 4.1)
-constexpr double kPassTime = 4.0;       // s, PassModeDuration
+constexpr double kDropBallSlack = 0.5;  // s; a set piece that lasted this much less may have been dropped
 constexpr double kSideMargin = 0.2;     // m beyond the halfway line that prove on which side one plays
 constexpr double kCircleMargin = 2.3;   // m, the same at the kick-off: the centre circle is open to the taker
 
@@ -107,18 +107,11 @@ void GameTracker::update(const protocol::Percept& percept, GameState& state) {
 
 void GameTracker::setPhase(Phase phase, double time, GameState& state) const {
   if (phase != state.phase || !started_) {
-    state.previousPhase = state.phase;
+    const bool setPiece = isOwnSetPiece(state.phase) || isOpponentSetPiece(state.phase);
+    state.ballDropped = setPiece && time - state.phaseSince >= kDropBallTime - kDropBallSlack;
     state.phase = phase;
     state.phaseSince = time;
   }
-  const bool own = isOwnSetPiece(phase);
-  const bool opponent = isOpponentSetPiece(phase);
-  const double limit = phase == Phase::OwnPass || phase == Phase::OpponentPass ? kPassTime : kDropBallTime;
-  state.setPieceLeft = own || opponent ? std::max(0.0, limit - (time - state.phaseSince)) : 0.0;
-  const bool stopped = phase == Phase::BeforeKickOff || phase == Phase::OwnGoal ||
-                       phase == Phase::OpponentGoal || phase == Phase::GameOver;
-  state.ownMayTouch = !opponent && !stopped;
-  state.opponentMayTouch = !own && !stopped;
 }
 
 void GameTracker::noticePlace(double x_W, double time, GameState& state) {

@@ -85,15 +85,6 @@ void ParticleFilter::scatter(const FieldMap& map) {
   clusterCount_ = 0;
 }
 
-void ParticleFilter::seedAround(const Pose2& X_WR, double positionSigma, double headingSigma, double share) {
-  const auto count = static_cast<std::size_t>(share * static_cast<double>(particles_.size()));
-  for (std::size_t i = 0; i < std::min(count, particles_.size()); ++i) {
-    const double x = random_.normal(X_WR.translation.x(), positionSigma);
-    const double y = random_.normal(X_WR.translation.y(), positionSigma);
-    particles_[i] = {{x, y, wrapAngle(random_.normal(X_WR.rotation, headingSigma))}, 0.0};
-  }
-}
-
 void ParticleFilter::insert(const Pose2& X_WR) {
   if (particles_.empty()) return;
   const auto lightest =

@@ -7,6 +7,7 @@
 
 #include "nonet/math/random.h"
 #include "nonet/sim/simulation.h"
+#include "nonet/world/ball_law.h"
 #include "nonet/world/world_model.h"
 
 namespace nonet::lab {
@@ -70,7 +71,7 @@ TEST(BallInSight, RestOfARollIsForeseenAfterAThirdOfASecond) {
       const Vector2 before = watcher.ball();
       watcher.step();
       // The message just read shows the ball as it was a cycle before.
-      if (cycle == 16) rest = watcher.world().ball.p_FRest;
+      if (cycle == 16) rest = world::restPlace({watcher.world().ball.p_FB, watcher.world().ball.v_FB});
       const bool near = (watcher.world().self.X_FR.translation - shown).norm() < 5.0;
       if (near && watcher.world().ball.lastSeen == watcher.world().time) {
         errors.push_back((watcher.world().ball.p_FB.head<2>() - shown).norm());

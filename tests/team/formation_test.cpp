@@ -81,8 +81,8 @@ TEST(KickOffPose, IsInTheOwnHalfAndOutsideTheCircleForTheOtherSide) {
     field.length = length;
     field.width = length * 2.0 / 3.0;
     for (int unum = 1; unum <= world::kTeamSize; ++unum) {
-      const Pose2 own = kickOffPose(unum, true, field);
-      const Pose2 other = kickOffPose(unum, false, field);
+      const Pose2 own = kickOffPose(unum, true, field, {});
+      const Pose2 other = kickOffPose(unum, false, field, {});
       EXPECT_LT(own.translation.x(), 0.0) << unum;
       EXPECT_GT(own.translation.x(), -0.5 * length);
       EXPECT_LT(std::abs(other.translation.y()), 0.5 * field.width);
@@ -97,8 +97,9 @@ TEST(KickOffPose, KeepsPlayersApart) {
   for (const bool own : {true, false})
     for (int a = 1; a <= world::kTeamSize; ++a)
       for (int b = a + 1; b <= world::kTeamSize; ++b)
-        EXPECT_GT((kickOffPose(a, own, field).translation - kickOffPose(b, own, field).translation).norm(),
-                  0.7)
+        EXPECT_GT(
+            (kickOffPose(a, own, field, {}).translation - kickOffPose(b, own, field, {}).translation).norm(),
+            0.7)
             << a << " and " << b;
 }
 

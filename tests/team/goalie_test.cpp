@@ -1,46 +1,33 @@
 // When the goalkeeper dives and when it goes to the ball: a dive costs the time of rising, so everything that
 // a dive does not change must not cause one.
-#include "nonet/team/goalie.h"
-
 #include <gtest/gtest.h>
 
-#include "nonet/team/ball_handling.h"
+#include "scene.h"
 
 namespace nonet::team {
 namespace {
 
-using motion::MotionRequest;
-
-world::WorldState scene() {
-  world::WorldState world;
-  world.game.unum = 1;
-  world.game.phase = world::Phase::PlayOn;
-  world.self.localized = true;
-  world.self.X_FR = Pose2(-14.4, 0.0, 0.0);
-  world.ball.known = true;
-  return world;
-}
-
-void setBall(world::WorldState& world, const Vector2& place, const Vector2& speed) {
-  world.ball.p_FB = Vector3(place.x(), place.y(), 0.0403);
-  world.ball.v_FB = Vector3(speed.x(), speed.y(), 0.0);
-  world.ball.p_RB = world.self.X_FR.inverse() * place;
+Scene goalieScene(const Vector2& ball, const Vector2& speed) {
+  Scene scene;
+  scene.world.game.unum = 1;
+  scene.stand(Pose2(-14.4, 0.0, 0.0));
+  scene.putBall(ball, speed);
+  return scene;
 }
 
 bool dives(const Vector2& place, const Vector2& speed) {
-  world::WorldState world = scene();
-  setBall(world, place, speed);
-  Goalie goalie{TeamParameters{}};
-  return std::holds_alternative<motion::PlaySkill>(goalie.update(world, true));
+  const Action action = goalieScene(place, speed).decideAs(Role::Goalie);
+  EXPECT_EQ(action.reason.behavior == "dive", std::holds_alternative<motion::PlaySkill>(action.motion));
+  return action.reason.behavior == "dive";
 }
 
 TEST(Goalie, DivesForAShotBesideIt) {
-  world::WorldState world = scene();
-  setBall(world, {-12.5, 0.7}, {-4.0, 0.0});
-  Goalie goalie{TeamParameters{}};
-  const MotionRequest request = goalie.update(world, true);
-  ASSERT_TRUE(std::holds_alternative<motion::PlaySkill>(request));
-  EXPECT_EQ(std::get<motion::PlaySkill>(request).side, model::Side::Left);
+  for (const double side : {1.0, -1.0}) {
+    const Action action = goalieScene({-12.5, side * 0.7}, {-4.0, 0.0}).decideAs(Role::Goalie);
+    ASSERT_TRUE(std::holds_alternative<motion::PlaySkill>(action.motion));
+    EXPECT_EQ(std::get<motion::PlaySkill>(action.motion).side,
+              side > 0.0 ? model::Side::Left : model::Side::Right);
+  }
 }
 
 TEST(Goalie, DoesNotDiveWhereThatChangesNothing) {
@@ -52,29 +39,32 @@ TEST(Goalie, DoesNotDiveWhereThatChangesNothing) {
 }
 
 TEST(Goalie, ClaimsABallNearTheGoalUnlessAMateIsSooner) {
-  world::WorldState world = scene();
-  setBall(world, {-13.5, 0.8}, {0.0, 0.0});
-  Goalie goalie{TeamParameters{}};
-  goalie.update(world, true);
-  EXPECT_TRUE(goalie.claimsBall());
-  world.teammates[3].known = true;
-  world.teammates[3].X_FP = Pose2(-13.7, 0.8, 0.0);
-  Goalie other{TeamParameters{}};
-  other.update(world, true);
-  EXPECT_FALSE(other.claimsBall());
-  other.update(world, false);
-  EXPECT_FALSE(other.claimsBall());
+  Scene scene = goalieScene({-13.5, 0.8}, {0.0, 0.0});
+  EXPECT_TRUE(scene.situation(Role::Goalie).claims);
+  EXPECT_EQ(scene.decideAs(Role::Goalie).reason.behavior, "go to ball");
+  Scene::put(scene.world.teammates[3], Pose2(-13.7, 0.8, 0.0));
+  EXPECT_FALSE(scene.situation(Role::Goalie).claims);
+  EXPECT_EQ(scene.decideAs(Role::Goalie).reason.behavior, "guard goal");
+}
+
+TEST(Goalie, KeepsItsClaimInALargerRegion) {
+  const TeamParameters parameters;
+  const double attack = parameters.goalie.attackDistance;
+  for (const auto& [distance, first, again] :
+       {std::tuple{0.9 * attack, true, true}, {1.2 * attack, false, true}, {1.5 * attack, false, false}}) {
+    const Scene scene = goalieScene({-15.0 + distance, 0.0}, {0.0, 0.0});
+    const Situation situation = scene.situation(Role::Goalie);
+    EXPECT_EQ(goalieWantsBall(situation, false), first) << distance;
+    EXPECT_EQ(goalieWantsBall(situation, true), again) << distance;
+  }
 }
 
 TEST(Goalie, StaysBetweenBallAndGoal) {
-  world::WorldState world = scene();
   for (const double y : {-6.0, 0.0, 6.0}) {
-    setBall(world, {-5.0, y}, {0.0, 0.0});
-    Goalie goalie{TeamParameters{}};
-    const MotionRequest request = goalie.update(world, true);
-    EXPECT_FALSE(goalie.claimsBall());
-    const auto* walk = std::get_if<motion::WalkTo>(&request);
-    const Vector2 place = world.self.X_FR * (walk != nullptr ? walk->target.translation : Vector2(0.0, 0.0));
+    const Scene scene = goalieScene({-5.0, y}, {0.0, 0.0});
+    const Action action = scene.decideAs(Role::Goalie);
+    EXPECT_EQ(action.reason.behavior, "guard goal");
+    const Vector2 place = goalOf(scene, action);
     EXPECT_NEAR((place - Vector2(-15.0, 0.0)).norm(), 0.6, 0.15);
     EXPECT_GE(place.y() * y, 0.0);
   }

@@ -58,7 +58,7 @@ TEST(Navigation, ArrivesAndKeepsClearOfStandingRobots) {
     double closest = 10.0;
     bool there = false;
     for (int cycle = 0; cycle < 2000 && !there; ++cycle) {
-      const MotionRequest request = walkTo(world, target, {});
+      const MotionRequest request = walkTo(world, {}, target, {});
       there = std::holds_alternative<motion::Stand>(request);
       follow(request, world.self.X_FR);
       for (const Vector2& other : others)
@@ -90,7 +90,7 @@ TEST(Navigation, TwoThatMeetPassEachOther) {
       for (std::size_t i = 0; i < 2; ++i) {
         world::PlayerState& other = worlds[i].teammates[3 - i];
         put(other, now[1 - i].translation);
-        follow(walkTo(worlds[i], targets[i], {}), worlds[i].self.X_FR);
+        follow(walkTo(worlds[i], {}, targets[i], {}), worlds[i].self.X_FR);
       }
       closest = std::min(closest, (worlds[0].self.X_FR.translation - worlds[1].self.X_FR.translation).norm());
     }
@@ -115,7 +115,7 @@ TEST(Navigation, KeepsOffTheBallAndThePlayerOnIt) {
   double toBall = 10.0;
   double toMate = 10.0;
   for (int cycle = 0; cycle < 1000; ++cycle) {
-    follow(walkTo(world, Pose2(3.0, 0.0, 0.0), caution), world.self.X_FR);
+    follow(walkTo(world, {}, Pose2(3.0, 0.0, 0.0), caution), world.self.X_FR);
     toBall = std::min(toBall, world.self.X_FR.translation.norm());
     toMate = std::min(toMate, (world.self.X_FR.translation - Vector2(-0.2, 0.0)).norm());
   }
@@ -132,10 +132,10 @@ TEST(Navigation, WaitsAtTheEdgeOfAPlaceThatIsTaken) {
   Caution caution;
   caution.robots = 0.7;
   for (int cycle = 0; cycle < 500; ++cycle)
-    follow(walkTo(world, Pose2(2.0, 0.0, 0.0), caution), world.self.X_FR);
+    follow(walkTo(world, {}, Pose2(2.0, 0.0, 0.0), caution), world.self.X_FR);
   const Pose2 settled = world.self.X_FR;
   for (int cycle = 0; cycle < 200; ++cycle)
-    follow(walkTo(world, Pose2(2.0, 0.0, 0.0), caution), world.self.X_FR);
+    follow(walkTo(world, {}, Pose2(2.0, 0.0, 0.0), caution), world.self.X_FR);
   EXPECT_NEAR((settled.translation - Vector2(2.0, 0.0)).norm(), 0.7, 0.15);
   EXPECT_LT((world.self.X_FR.translation - settled.translation).norm(), 0.05) << "it stands still";
 }

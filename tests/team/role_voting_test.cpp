@@ -34,9 +34,7 @@ class Team {
     for (std::size_t i = 0; i < worlds_.size(); ++i) {
       world::WorldState& world = worlds_[i];
       look(i, world);
-      const Vector2 seen = world.ball.p_FB.head<2>();
-      const Formation formation = formationFor(seen, kMaxAssigned, world.field, {});
-      voting_[i]->update(world, formation, Vector2(15, 0), banned, {});
+      voting_[i]->update(assess(world, parameters_, motion_), banned);
       if (protocol::saySlot(time_) != world.game.unum) continue;
       protocol::SayMessage message;
       message.unum = world.game.unum;
@@ -84,6 +82,8 @@ class Team {
     }
   }
 
+  TeamParameters parameters_;
+  motion::MotionState motion_;
   Random random_;
   double time_ = 10.0;
   std::vector<std::unique_ptr<RoleVoting>> voting_;
@@ -139,10 +139,12 @@ TEST(RoleVoting, TheBannedPlayerHandsOver) {
 TEST(RoleVoting, WithoutAViewOfTheFieldThereIsNoVote) {
   RoleVoting voting;
   world::WorldState world;
+  const TeamParameters parameters;
+  const motion::MotionState motion;
   world.game.unum = 4;
   for (int cycle = 0; cycle < 50; ++cycle) {
     world.time = 0.02 * cycle;
-    voting.update(world, {}, Vector2(15, 0), 0, {});
+    voting.update(assess(world, parameters, motion), 0);
     EXPECT_FALSE(voting.vote().has_value());
   }
 }

@@ -10,7 +10,7 @@ namespace {
 
 void expectPlayable(world::Phase phase, const Vector2& ball) {
   const world::FieldGeometry field;
-  const SetPlay play = setPlayFor(phase, ball, field);
+  const SetPlay play = setPlayFor(phase, ball, field, {});
   const Vector2 receiver = play.p_FReceiver;
   EXPECT_LT(std::abs(receiver.x()), 0.5 * field.length);
   EXPECT_LT(std::abs(receiver.y()), 0.5 * field.width);
@@ -36,7 +36,7 @@ TEST(SetPlay, TheReceiverStandsWhereTheBallGoes) {
 }
 
 TEST(SetPlay, TheKickOffPassStaysInTheOwnHalf) {
-  EXPECT_LT(setPlayFor(world::Phase::OwnKickOff, {0.0, 0.0}, {}).p_FTarget.x(), 0.0);
+  EXPECT_LT(setPlayFor(world::Phase::OwnKickOff, {0.0, 0.0}, {}, {}).p_FTarget.x(), 0.0);
 }
 
 }  // namespace

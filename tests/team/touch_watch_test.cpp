@@ -65,6 +65,7 @@ TEST_F(Scene, AnOpponentThatTookThePieceBansNobody) {
 
 TEST_F(Scene, NobodyIsBannedAfterADropBallOrTheOpponentsKick) {
   play(world::Phase::OwnKickOff, 15.0);
+  world.game.ballDropped = true;
   play(world::Phase::PlayOn, 0.2);
   EXPECT_EQ(watch.banned(), 0);
   play(world::Phase::OpponentKickOff, 3.0);

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/world/ball_law.h"
+
 #include "recording.h"
 #include "vision_simulator.h"
 
@@ -170,7 +172,7 @@ TEST(BallTracker, PredictsTheRestAfterAThirdOfASecond) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Vector2 rest = Vector2::Zero();
     follow(ball, start - 30, seed, [&](std::size_t i, const BallState& state) {
-      if (i == start + 15) rest = state.p_FRest;
+      if (i == start + 15) rest = restPlace({state.p_FB, state.v_FB});
     });
     good += (rest - ball.back().head<2>()).norm() < 0.5 ? 1 : 0;
   }

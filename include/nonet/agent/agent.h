@@ -9,6 +9,7 @@
 #include "nonet/agent/parameters.h"
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
+#include "nonet/team/action.h"
 #include "nonet/team/formation.h"
 #include "nonet/world/world_state.h"
 
@@ -39,6 +40,9 @@ class Agent {
   /// What it believes, for measurements and drawings.
   const world::WorldState& world() const;
   team::Role role() const;
+  /// What it decided in the last step, and why. With recordCandidates also what it weighed.
+  const team::Action& action() const;
+  void recordCandidates(bool on);
   const AgentConfig& config() const;
 
  private:

@@ -36,6 +36,7 @@ Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometr
                        const FormationParameters& parameters);
 
 /// Where player `unum` beams to before a kick-off; everybody is in the own half.
-Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field);
+Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
+                  const SetPlayParameters& parameters);
 
 }  // namespace nonet::team

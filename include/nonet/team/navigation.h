@@ -19,7 +19,8 @@ struct Caution {
 
 /// A walk to X_FWanted (own field frame). Far away the robot faces its way, near by it takes the target's
 /// heading. It goes around what is in the way, slows down near others, and gives way to who comes too near.
-motion::MotionRequest walkTo(const world::WorldState& world, const Pose2& X_FWanted, const Caution& caution);
+motion::MotionRequest walkTo(const world::WorldState& world, const NavigationParameters& parameters,
+                             const Pose2& X_FWanted, const Caution& caution);
 
 /// Heading from the robot to a point of the field, in the field frame, rad.
 double headingTo(const world::WorldState& world, const Vector2& p_F);

@@ -1,157 +1,13 @@
-// Declared parameters of the team stage: formation, ball handling, goalkeeping.
+// Declared parameters of the team stage.
 #pragma once
 
 #include "nonet/config/parameters.h"
+#include "nonet/team/ball_parameters.h"
+#include "nonet/team/place_parameters.h"
 
 namespace nonet::team {
 
-/// Role positions relative to the ball (offensive group) and on the line from the own goal to the ball
-/// (backs), after [MacAlpine 2012a, section 6.1 and figure 5].
-struct FormationParameters {
-  double forwardAhead = 2.0;
-  double forwardAside = 2.5;
-  double wingBehind = 2.5;
-  double wingAside = 3.0;
-  double stopperBehind = 2.5;
-  double supporterBehind = 4.0;
-  double firstBackFromGoal = 3.0;
-  double secondBackFromGoal = 5.5;
-  double backAside = 0.7;
-  double touchLineMargin = 0.7;
-  double apart = 1.0;
-
-  template <class Self, class Visitor>
-  static void describe(Self& self, Visitor&& visit) {
-    using namespace config;
-    visit({"forwardAhead", Unit::Metre, {0, 10}, search(0.5, 4), "Forwards: ahead of the ball"},
-          self.forwardAhead);
-    visit({"forwardAside", Unit::Metre, {0, 10}, search(1, 5), "Forwards: to the side of the ball"},
-          self.forwardAside);
-    visit({"wingBehind", Unit::Metre, {0, 10}, search(1, 5), "Wings: behind the ball"}, self.wingBehind);
-    visit({"wingAside", Unit::Metre, {0, 10}, search(1, 6), "Wings: to the side of the ball"},
-          self.wingAside);
-    visit({"stopperBehind", Unit::Metre, {0, 10}, search(0.8, 4), "Stopper: behind the ball"},
-          self.stopperBehind);
-    visit({"supporterBehind", Unit::Metre, {0, 10}, search(2, 8), "Supporter: behind the ball"},
-          self.supporterBehind);
-    visit({"firstBackFromGoal",
-           Unit::Metre,
-           {1, 15},
-           search(1.5, 5),
-           "Nearer back: distance from the own goal"},
-          self.firstBackFromGoal);
-    visit({"secondBackFromGoal",
-           Unit::Metre,
-           {1, 15},
-           search(3, 8),
-           "Farther back: distance from the own goal"},
-          self.secondBackFromGoal);
-    visit({"backAside", Unit::Metre, {0, 3}, search(0, 1.5), "Backs: to either side of the line goal - ball"},
-          self.backAside);
-    visit({"touchLineMargin", Unit::Metre, {0, 3}, fixed, "Positions stay this far inside the field"},
-          self.touchLineMargin);
-    visit({"apart", Unit::Metre, {0, 3}, fixed, "Positions are at least this far from each other"},
-          self.apart);
-  }
-};
-
-struct BallHandlingParameters {
-  double behindBall = 0.25;
-  double circleRadius = 0.45;
-  double dribbleThrough = 0.6;
-  double alignedAngle = 0.45;
-  double alignedAside = 0.10;
-  bool kick = true;
-  double kickAhead = 0.165;
-  double kickAheadTolerance = 0.03;
-  double kickAside = 0.055;
-  double kickAsideTolerance = 0.03;
-  double kickAngle = 0.2;
-  double kickApproach = 1.2;
-  double kickGain = 3.5;
-  double kickLeastSpeed = 0.1;
-  double kickOpponentDistance = 1.8;
-  double kickLane = 0.3;
-  double handleDistance = 0.9;
-  double waitBehind = 0.35;
-
-  template <class Self, class Visitor>
-  static void describe(Self& self, Visitor&& visit) {
-    using namespace config;
-    visit({"behindBall", Unit::Metre, {0.05, 2}, search(0.1, 0.5), "Approach point: torso behind the ball"},
-          self.behindBall);
-    visit({"circleRadius",
-           Unit::Metre,
-           {0.1, 3},
-           search(0.3, 0.8),
-           "Distance kept when walking around the ball"},
-          self.circleRadius);
-    visit(
-        {"dribbleThrough", Unit::Metre, {0, 5}, search(0.2, 1.5), "Dribbling aims this far beyond the ball"},
-        self.dribbleThrough);
-    visit({"alignedAngle",
-           Unit::Radian,
-           {0, 3.2},
-           search(0.1, 1.0),
-           "Dribble when ball and target lie within this angle"},
-          self.alignedAngle);
-    visit({"alignedAside",
-           Unit::Metre,
-           {0, 1},
-           search(0.03, 0.2),
-           "Dribble when the ball lies this near to the line"},
-          self.alignedAside);
-    visit({"kick", Unit::None, {0, 1}, fixed, "Whether to kick at all"}, self.kick);
-    visit({"kickAhead", Unit::Metre, {0, 1}, fixed, "Kick: ball this far ahead of the torso"},
-          self.kickAhead);
-    visit({"kickAheadTolerance", Unit::Metre, {0, 1}, fixed, "Kick: allowed error of kickAhead"},
-          self.kickAheadTolerance);
-    visit({"kickAside",
-           Unit::Metre,
-           {0, 0.3},
-           fixed,
-           "Kick: ball in front of the foot, this far from the middle"},
-          self.kickAside);
-    visit({"kickAsideTolerance", Unit::Metre, {0, 0.3}, fixed, "Kick: allowed error of kickAside"},
-          self.kickAsideTolerance);
-    visit({"kickAngle", Unit::Radian, {0, 3.2}, fixed, "Kick: allowed error of the heading"}, self.kickAngle);
-    visit({"kickApproach",
-           Unit::Radian,
-           {0, 3.2},
-           search(0.5, 3.1),
-           "Kick: the last steps go straight to their place when the target lies within this angle"},
-          self.kickApproach);
-    visit({"kickGain", Unit::Hertz, {0.1, 20}, search(1, 8), "Kick: speed per distance in the last steps"},
-          self.kickGain);
-    visit({"kickLeastSpeed",
-           Unit::MetrePerSecond,
-           {0, 1},
-           search(0, 0.3),
-           "Kick: speed of the last steps besides what kickGain gives"},
-          self.kickLeastSpeed);
-    visit({"kickOpponentDistance",
-           Unit::Metre,
-           {0, 10},
-           search(0.3, 2.5),
-           "Kick only when no opponent is nearer to the ball; two fifths of it once in place"},
-          self.kickOpponentDistance);
-    visit({"kickLane",
-           Unit::Metre,
-           {0, 2},
-           search(0.1, 0.8),
-           "Kick only when no opponent is nearer to the first metres of the ball's way"},
-          self.kickLane);
-    visit({"handleDistance",
-           Unit::Metre,
-           {0.3, 3},
-           search(0.5, 1.5),
-           "Nearer to the ball others are not walked around any more"},
-          self.handleDistance);
-    visit({"waitBehind", Unit::Metre, {0.1, 2}, fixed, "Set piece: the taker waits this far behind the ball"},
-          self.waitBehind);
-  }
-};
-
+/// The goalkeeper (goalie.h, behaviors/dive.cpp, behaviors/guard_goal.cpp).
 struct GoalieParameters {
   double outOfGoal = 0.6;
   double attackDistance = 2.0;
@@ -159,6 +15,15 @@ struct GoalieParameters {
   double diveReach = 0.2;
   double sideStepSpeed = 0.2;
   double diveFarthest = 0.9;
+  double keepClaim = 1.3;
+  double claimAhead = 1.0;
+  double claimMargin = 0.5;
+  double clearanceAside = 6.0;
+  double diveBallSpeed = 0.5;
+  double postMargin = 0.05;
+  double inFrontOfLine = 0.2;
+  double rollingSpeed = 0.2;
+  double room = 0.4;
   bool dive = true;
 
   template <class Self, class Visitor>
@@ -180,16 +45,63 @@ struct GoalieParameters {
           self.sideStepSpeed);
     visit({"diveFarthest", Unit::Metre, {0, 3}, search(0.5, 1.2), "A ball passing farther is out of reach"},
           self.diveFarthest);
+    visit({"keepClaim",
+           Unit::None,
+           {1, 5},
+           fixed,
+           "An own claim of the ball holds up to this multiple of attackDistance"},
+          self.keepClaim);
+    visit({"claimAhead", Unit::Second, {0, 10}, fixed, "Claims the ball by where it will be after this time"},
+          self.claimAhead);
+    visit({"claimMargin",
+           Unit::None,
+           {0, 5},
+           fixed,
+           "A field player must be sooner at the ball by less than this share of keepBallTime for the goalie "
+           "to claim it"},
+          self.claimMargin);
+    visit({"clearanceAside",
+           Unit::Metre,
+           {0, 20},
+           fixed,
+           "Clears the ball to a point of the halfway line this far beside the middle"},
+          self.clearanceAside);
+    visit({"diveBallSpeed",
+           Unit::MetrePerSecond,
+           {0, 10},
+           fixed,
+           "Dives only for a ball that comes faster than this towards the goal line"},
+          self.diveBallSpeed);
+    visit({"postMargin",
+           Unit::Metre,
+           {0, 1},
+           fixed,
+           "A shot that passes this far outside the post is still one for the goalie"},
+          self.postMargin);
+    visit({"inFrontOfLine", Unit::Metre, {0, 5}, fixed, "Never stands nearer to the goal line"},
+          self.inFrontOfLine);
+    visit({"rollingSpeed",
+           Unit::MetrePerSecond,
+           {0, 10},
+           fixed,
+           "A ball faster than this towards the goal line is met where it will pass"},
+          self.rollingSpeed);
+    visit({"room", Unit::Metre, {0, 5}, fixed, "Room left to others, and to a ball that it may not touch"},
+          self.room);
     visit({"dive", Unit::None, {0, 1}, fixed, "Whether to dive at all"}, self.dive);
   }
 };
 
-/// How fast players are, for comparing their ways to the ball.
+/// How fast players and ball are, for comparing the ways to the ball (play_time.h).
 struct PaceParameters {
   double walkSpeed = 0.7;
   double turnSpeed = 1.5;
   double risingTime = 3.0;
   double wayAround = 0.8;
+  double longestRoll = 6.0;
+  double carryDistance = 0.8;
+  double carrySpeed = 0.15;
+  double carryAlong = 0.7;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -199,14 +111,163 @@ struct PaceParameters {
     visit({"risingTime", Unit::Second, {0, 10}, fixed, "From lying to walking"}, self.risingTime);
     visit({"wayAround", Unit::Metre, {0, 5}, fixed, "Longer way for one on the wrong side of the ball"},
           self.wayAround);
+    visit({"longestRoll", Unit::Second, {0, 60}, fixed, "A rolling ball is followed for so long"},
+          self.longestRoll);
+    visit({"carryDistance",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "Largest distance between an opponent and the ball that it dribbles"},
+          self.carryDistance);
+    visit({"carrySpeed",
+           Unit::MetrePerSecond,
+           {0, 5},
+           fixed,
+           "An opponent slower than this does not dribble the ball on"},
+          self.carrySpeed);
+    visit({"carryAlong",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "An opponent dribbles when the cosine between its way and that to the ball is larger"},
+          self.carryAlong);
+  }
+};
+
+/// Looking for a lost ball (search_ball.cpp).
+struct SearchParameters {
+  double headFirst = 2.0;
+  double afterStart = 3.0;
+  double turnSpeed = 0.8;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"headFirst",
+           Unit::Second,
+           {0, 20},
+           fixed,
+           "So long the head alone looks around before the body turns"},
+          self.headFirst);
+    visit({"afterStart",
+           Unit::Second,
+           {0, 20},
+           fixed,
+           "The body does not turn so soon after the play mode changed"},
+          self.afterStart);
+    visit({"turnSpeed", Unit::RadianPerSecond, {0, 5}, fixed, "Of the body while it searches"},
+          self.turnSpeed);
+  }
+};
+
+/// Who plays which role (role_voting.h).
+struct AgreementParameters {
+  double voteAge = 1.0;
+  double claimAge = 1.0;
+  double silentPenalty = 4.0;
+  double bannedPenalty = 60.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"voteAge",
+           Unit::Second,
+           {0, 10},
+           fixed,
+           "Votes count for so long: each player speaks every 0.44 s, and one message may get lost"},
+          self.voteAge);
+    visit({"claimAge",
+           Unit::Second,
+           {0, 10},
+           fixed,
+           "The goalie's word that it goes to the ball holds for so long"},
+          self.claimAge);
+    visit({"silentPenalty",
+           Unit::Second,
+           {0, 60},
+           fixed,
+           "Added to the time to the ball of a team mate that says nothing of playing it"},
+          self.silentPenalty);
+    visit(
+        {"bannedPenalty", Unit::Second, {0, 600}, fixed, "Added for the player that must not touch the ball"},
+        self.bannedPenalty);
+  }
+};
+
+/// What is told by radio (radio.h).
+struct RadioParameters {
+  double oldestBall = 5.0;
+  double lostSigma = 3.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"oldestBall", Unit::Second, {0, 60}, fixed, "Older sightings of the ball are not worth the bits"},
+          self.oldestBall);
+    visit({"lostSigma",
+           Unit::Metre,
+           {0, 30},
+           fixed,
+           "Standard deviation that a robot tells of its place when it is lost"},
+          self.lostSigma);
+  }
+};
+
+/// Who took the own set piece and must not touch the ball again (touch_watch.h).
+struct TouchParameters {
+  double takerReach = 1.2;
+  double touchReach = 0.24;
+  double turnedReach = 0.45;
+  double turnedAfter = 0.5;
+  double turnedFor = 0.1;
+  double longest = 12.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"takerReach", Unit::Metre, {0, 5}, fixed, "The taker is this near to the ball when play goes on"},
+          self.takerReach);
+    visit({"touchReach",
+           Unit::Metre,
+           {0, 2},
+           fixed,
+           "From torso to ball at a touch: foot, toe and radius of the ball"},
+          self.touchReach);
+    visit({"turnedReach",
+           Unit::Metre,
+           {0, 2},
+           fixed,
+           "The same for a ball that changed its way beside somebody"},
+          self.turnedReach);
+    visit({"turnedAfter",
+           Unit::Second,
+           {0, 5},
+           fixed,
+           "A change of way so soon after the set piece is the taker's own touch"},
+          self.turnedAfter);
+    visit({"turnedFor", Unit::Second, {0, 2}, fixed, "A change of way counts for so long"}, self.turnedFor);
+    visit({"longest",
+           Unit::Second,
+           {0, 60},
+           fixed,
+           "The ban ends unseen after this time, since no message of the server tells of it"},
+          self.longest);
   }
 };
 
 struct TeamParameters {
   FormationParameters formation;
+  BallTargetParameters target;
   BallHandlingParameters ball;
   GoalieParameters goalie;
   PaceParameters pace;
+  NavigationParameters navigation;
+  SetPlayParameters setPlay;
+  BeamParameters beam;
+  SearchParameters ballSearch;
+  AgreementParameters agreement;
+  RadioParameters radio;
+  TouchParameters touch;
   double avoidDistance = 0.7;
   double onBallRoom = 1.2;
   double keepBallTime = 1.0;
@@ -217,9 +278,17 @@ struct TeamParameters {
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
     visit.group("formation", self.formation);
+    visit.group("target", self.target);
     visit.group("ball", self.ball);
     visit.group("goalie", self.goalie);
     visit.group("pace", self.pace);
+    visit.group("navigation", self.navigation);
+    visit.group("setPlay", self.setPlay);
+    visit.group("beam", self.beam);
+    visit.group("ballSearch", self.ballSearch);
+    visit.group("agreement", self.agreement);
+    visit.group("radio", self.radio);
+    visit.group("touch", self.touch);
     visit({"avoidDistance", Unit::Metre, {0, 5}, search(0.4, 1.5), "Room left to other robots on the way"},
           self.avoidDistance);
     visit({"onBallRoom", Unit::Metre, {0, 5}, search(0.7, 2), "Room left to the team mate on the ball"},

@@ -17,14 +17,14 @@ struct Runner {
 /// Where the ball will be: rolling freely, or carried on by an opponent that dribbles it. Own field frame.
 class BallForecast {
  public:
-  explicit BallForecast(const world::WorldState& world);
+  BallForecast(const world::WorldState& world, const PaceParameters& pace);
   /// After `seconds`, if none of us touches it, m.
   Vector2 at(double seconds) const;
-  bool carried() const { return carried_; }
 
  private:
   Vector2 p_FB_ = Vector2::Zero();
   Vector2 v_FB_ = Vector2::Zero();
+  double longestRoll_ = 0.0;  // s
   bool carried_ = false;
 };
 

@@ -5,6 +5,7 @@
 
 #include "nonet/math/inline_string.h"
 #include "nonet/protocol/say_codec.h"
+#include "nonet/team/parameters.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::team {
@@ -17,10 +18,13 @@ struct Tidings {
 
 class Radio {
  public:
+  explicit Radio(const RadioParameters& parameters = {}) : parameters_(parameters) {}
+
   /// A report once in each of the robot's own time slots (protocol::saySlot), when it has something to tell.
   std::optional<InlineString<64>> update(const world::WorldState& world, const Tidings& tidings);
 
  private:
+  RadioParameters parameters_;
   bool inOwnSlot_ = false;
 };
 

@@ -8,19 +8,16 @@
 
 #include "nonet/protocol/say_codec.h"
 #include "nonet/team/formation.h"
-#include "nonet/team/parameters.h"
-#include "nonet/team/play_time.h"
 #include "nonet/team/role_assignment.h"
-#include "nonet/world/world_state.h"
+#include "nonet/team/situation.h"
 
 namespace nonet::team {
 
 class RoleVoting {
  public:
-  /// `banned`: number of the team mate that must leave the ball to others, 0 for none. `positions` are those
-  /// of the roles now, `p_FTarget` is where the ball should go.
-  void update(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget,
-              int banned, const TeamParameters& parameters);
+  /// Needs the situation up to the formation. `banned`: number of the team mate that must leave the ball to
+  /// others, 0 for none.
+  void update(const Situation& situation, int banned);
 
   /// The own role as agreed; a field player's (number 2 to 11).
   Role role() const { return role_; }
@@ -30,9 +27,8 @@ class RoleVoting {
   const std::optional<protocol::RoleVote>& vote() const { return vote_; }
 
  private:
-  void vote(const world::WorldState& world, const Formation& formation, const Vector2& p_FTarget, int banned,
-            const TeamParameters& parameters);
-  void count(const world::WorldState& world, int banned);
+  void vote(const Situation& situation, int banned);
+  void count(const Situation& situation, int banned);
 
   RoleAssigner assigner_;
   std::optional<protocol::RoleVote> vote_;

@@ -2,6 +2,7 @@
 // that stands near by, since it may not touch it twice.
 #pragma once
 
+#include "nonet/team/parameters.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::team {
@@ -12,9 +13,7 @@ struct SetPlay {
   Vector2 p_FTarget = Vector2::Zero();    // where the taker pushes the ball: before the receiver's feet, m
 };
 
-/// Direction of the first pass of a match, rad: to the right and a little back, away from the opponents.
-double kickOffPassAngle();
-
-SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGeometry& field);
+SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGeometry& field,
+                   const SetPlayParameters& parameters);
 
 }  // namespace nonet::team

@@ -31,18 +31,15 @@ struct BodyState {
   std::array<bool, 2> footContact{};  // indexed by model::Side
   std::array<Vector3, 2> footForce{Vector3::Zero(),
                                    Vector3::Zero()};  // N, robot axes of the foot; 0 without contact
-  std::array<Vector3, 2> footPressure{Vector3::Zero(), Vector3::Zero()};  // centre of pressure, sole frame, m
   Posture posture = Posture::Upright;
   double postureSince = 0.0;       // server time at which the posture began, s
   double torsoHeight = 0.0;        // m above the ground, from the supporting foot's kinematics
   Vector3 v_GR = Vector3::Zero();  // velocity of the torso centre, m/s, axes of G
   Vector3 p_GR = Vector3::Zero();  // torso centre, m: x, y relative to its place at the start, drifting;
                                    // z above the ground
-  model::Side supportSide =
-      model::Side::Left;  // foot that carries the larger load (the last one while in the air)
-  bool asleep = false;    // the server froze the still robot: its senses repeat (server facts 3.4)
-  Pose2 odometry;         // torso pose on the ground since the start, drifting
-  Pose2 odometryStep;     // change in this cycle, in the previous cycle's robot frame
+  bool asleep = false;             // the server froze the still robot: its senses repeat (server facts 3.4)
+  Pose2 odometry;                  // torso pose on the ground since the start, drifting
+  Pose2 odometryStep;              // change in this cycle, in the previous cycle's robot frame
 };
 
 }  // namespace nonet::world

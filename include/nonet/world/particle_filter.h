@@ -1,10 +1,10 @@
 // Monte Carlo localization over the ground pose (x, y, heading) in W: holds hypotheses and decides between
 // them.
 //
-// After [Thrun 2005, chapter 8]: prediction by odometry, weights from
-// landmarks and lines, low-variance resampling when the effective sample size drops (table 4.4), and
-// re-seeding from sensor geometry when the observations fit badly (augmented MCL, section 8.3.5, and
-// sensor resetting). The number of particles follows the need: many while lost, few while tracking.
+// After [Thrun 2005, chapter 8]: prediction by odometry, weights from landmarks and lines, low-variance
+// resampling when the effective sample size drops (table 4.4), and re-seeding from sensor geometry when the
+// observations fit badly (augmented MCL, section 8.3.5, and sensor resetting). Many particles while lost, few
+// while tracking.
 #pragma once
 
 #include <array>
@@ -57,21 +57,20 @@ class ParticleFilter {
 
   /// Spreads all particles over the field.
   void scatter(const FieldMap& map);
-  /// Puts a share of the particles around a pose.
-  void seedAround(const Pose2& X_WR, double positionSigma, double headingSigma, double share);
 
   void predict(const Pose2& X_step, double distanceNoise, double angleNoise);
 
-  /// Weighs, resamples and re-seeds. `tracking` says that the fit is sure of its pose: few particles do.
+  /// Weighs, resamples and re-seeds. `tracking`: the fit is sure of its pose, so few particles are enough.
   void correct(const GroundObservations& seen, const FieldMap& map, bool tracking);
 
   /// Replaces the lightest particle.
   void insert(const Pose2& X_WR);
 
-  /// log-likelihood of the last observations at a pose (bounded, so that one outlier does not kill it).
+  /// Log-likelihood of the observations at a pose. The cost of each observation is bounded, so that one
+  /// outlier does not rule a pose out.
   double logLikelihood(const Pose2& X_WR, const GroundObservations& seen, const FieldMap& map) const;
 
-  /// The heaviest clusters, best first, each with its log-likelihood; at most three.
+  /// The heaviest clusters, heaviest first; at most three.
   struct Cluster {
     Pose2 X_WR;
     double share = 0.0;  // of the total weight

@@ -73,13 +73,10 @@ struct GameState {
   bool sidesSwapped = false;                           // second half with the sides changed
   Phase phase = Phase::BeforeKickOff;
   protocol::PlayMode playMode = protocol::PlayMode::Unknown;
-  Phase previousPhase = Phase::BeforeKickOff;
   int half = 1;
-  double time = 0.0;             // game time, s
-  double phaseSince = 0.0;       // server time at which the phase began, s
-  double setPieceLeft = 0.0;     // s until a running set piece ends by itself (drop ball); 0 in other phases
-  bool ownMayTouch = true;       // the own team may play the ball now
-  bool opponentMayTouch = true;  // the opponents may play the ball now
+  double time = 0.0;         // game time, s
+  double phaseSince = 0.0;   // server time at which the phase began, s
+  bool ballDropped = false;  // nobody took the set piece before this phase: the referee gave the ball free
   int ownScore = 0;
   int opponentScore = 0;
 };
@@ -95,16 +92,14 @@ struct SelfState {
 };
 
 struct BallState {
-  Vector3 p_FB = Vector3::Zero();                    // m
-  Vector3 v_FB = Vector3::Zero();                    // m/s
-  Vector2 p_RB = Vector2::Zero();                    // in the robot frame on the ground, m
-  Matrix2 covariance = Matrix2::Identity();          // of p_FB (x, y), m^2
-  Matrix2 velocityCovariance = Matrix2::Identity();  // of v_FB (x, y), (m/s)^2
-  double lastSeen = kNever;                          // server time of the last own sighting, s
-  double lastReported = kNever;       // server time of the last sighting told by a team mate, s
-  double lastKick = kNever;           // server time at which its motion last changed, s
-  bool known = false;                 // seen or reported recently enough to act on
-  Vector2 p_FRest = Vector2::Zero();  // where it will stop if nobody touches it, m
+  Vector3 p_FB = Vector3::Zero();            // m
+  Vector3 v_FB = Vector3::Zero();            // m/s
+  Vector2 p_RB = Vector2::Zero();            // in the robot frame on the ground, m
+  Matrix2 covariance = Matrix2::Identity();  // of p_FB (x, y), m^2
+  double lastSeen = kNever;                  // server time of the last own sighting, s
+  double lastReported = kNever;              // server time of the last sighting told by a team mate, s
+  double lastKick = kNever;                  // server time at which its motion last changed, s
+  bool known = false;                        // seen or reported recently enough to act on
 };
 
 struct PlayerState {

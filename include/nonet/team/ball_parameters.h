@@ -1,0 +1,277 @@
+// Declared parameters of playing the ball: where to, and how the robot comes to push or kick it.
+#pragma once
+
+#include "nonet/config/parameters.h"
+
+namespace nonet::team {
+
+/// Where the ball is to be played: into the goal, around an opponent in the way.
+struct BallTargetParameters {
+  double atGoal = 3.5;
+  double atGoalInside = 0.3;
+  double behindLine = 0.2;
+  double insidePost = 0.4;
+  double afar = 3.0;
+  double middle = 0.2;
+  double cornerDepth = 1.0;
+  double cornerAside = 0.3;
+  double cornerBack = 1.5;
+  double laneWidth = 0.7;
+  double openPostMargin = 0.25;
+  double openTurnCost = 0.15;
+  double openMiddle = 0.05;
+  double barReach = 1.5;
+  double barWidth = 0.6;
+  double barCost = 0.8;
+  double facingCost = 0.05;
+  double touchLineMargin = 0.2;
+  double around = 2.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"atGoal",
+           Unit::Metre,
+           {0, 30},
+           fixed,
+           "Nearer to the goal the ball goes to the place that opponents leave most open"},
+          self.atGoal);
+    visit({"atGoalInside",
+           Unit::Metre,
+           {0, 1},
+           fixed,
+           "Then the ball must lie this much nearer to the middle than the 45 degree lines from the posts"},
+          self.atGoalInside);
+    visit({"behindLine", Unit::Metre, {0, 2}, fixed, "Aim this far behind the goal line"}, self.behindLine);
+    visit({"insidePost", Unit::Metre, {0, 1}, fixed, "From near: least distance from the posts"},
+          self.insidePost);
+    visit({"afar",
+           Unit::Metre,
+           {0, 30},
+           fixed,
+           "From farther than this aim at the middle of the goal, since a push aside on the way adds up"},
+          self.afar);
+    visit({"middle", Unit::Metre, {0, 1}, fixed, "From afar: half the width of that middle"}, self.middle);
+    visit({"cornerDepth",
+           Unit::Metre,
+           {0, 10},
+           fixed,
+           "A ball nearer to the goal line and beside the goal first goes back to the middle"},
+          self.cornerDepth);
+    visit({"cornerAside", Unit::Metre, {0, 5}, fixed, "Beside the goal: this far outside the post"},
+          self.cornerAside);
+    visit({"cornerBack", Unit::Metre, {0, 10}, fixed, "Back to the middle: this far in front of the goal"},
+          self.cornerBack);
+    visit({"laneWidth",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "A way that opponents leave wider than this is as good as free"},
+          self.laneWidth);
+    visit({"openPostMargin", Unit::Metre, {0, 1}, fixed, "Open goal: least distance from the posts"},
+          self.openPostMargin);
+    visit({"openTurnCost",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "Open goal: lane width that a turn of the robot by 1 rad must be worth"},
+          self.openTurnCost);
+    visit({"openMiddle",
+           Unit::None,
+           {0, 5},
+           fixed,
+           "Open goal: lane width that each metre off the middle must be worth"},
+          self.openMiddle);
+    visit({"barReach",
+           Unit::Metre,
+           {0, 10},
+           fixed,
+           "Opponents bar directions of the ball up to this distance from it"},
+          self.barReach);
+    visit({"barWidth",
+           Unit::Radian,
+           {0.01, 3.2},
+           fixed,
+           "An opponent bars this to either side in full, and fades over as much again"},
+          self.barWidth);
+    visit({"barCost",
+           Unit::None,
+           {0, 10},
+           fixed,
+           "Cost of a direction that is barred in full; one that points away from the target costs 1"},
+          self.barCost);
+    visit({"facingCost",
+           Unit::None,
+           {0, 5},
+           fixed,
+           "Cost of a direction per squared radian that the robot must turn for it"},
+          self.facingCost);
+    visit({"touchLineMargin",
+           Unit::Metre,
+           {0, 2},
+           fixed,
+           "A direction that leads within a metre nearer to the touch line is out"},
+          self.touchLineMargin);
+    visit({"around", Unit::Metre, {0.1, 10}, fixed, "Around an opponent: the ball is played this far"},
+          self.around);
+  }
+};
+
+/// How the player on the ball goes behind it, dribbles and kicks (behaviors/).
+struct BallHandlingParameters {
+  double behindBall = 0.25;
+  double circleRadius = 0.45;
+  double dribbleThrough = 0.6;
+  double alignedAngle = 0.45;
+  double alignedAside = 0.10;
+  bool kick = true;
+  double kickAhead = 0.165;
+  double kickAheadTolerance = 0.03;
+  double kickAside = 0.055;
+  double kickAsideTolerance = 0.03;
+  double kickAngle = 0.2;
+  double kickApproach = 1.2;
+  double kickGain = 3.5;
+  double kickLeastSpeed = 0.1;
+  double kickOpponentDistance = 1.8;
+  double kickLane = 0.3;
+  double handleDistance = 0.9;
+  double waitBehind = 0.35;
+  double kickStay = 1.5;
+  double kickPress = 0.4;
+  double kickLaneLength = 3.0;
+  double kickRolling = 0.3;
+  double kickMostSpeed = 0.8;
+  double kickBehind = 0.5;
+  double alignedBehind = 0.05;
+  double circleBehind = 0.5;
+  double faceAway = 1.0;
+  double waitRoom = 0.25;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"behindBall", Unit::Metre, {0.05, 2}, search(0.1, 0.5), "Approach point: torso behind the ball"},
+          self.behindBall);
+    visit({"circleRadius",
+           Unit::Metre,
+           {0.1, 3},
+           search(0.3, 0.8),
+           "Distance kept when walking around the ball"},
+          self.circleRadius);
+    visit(
+        {"dribbleThrough", Unit::Metre, {0, 5}, search(0.2, 1.5), "Dribbling aims this far beyond the ball"},
+        self.dribbleThrough);
+    visit({"alignedAngle",
+           Unit::Radian,
+           {0, 3.2},
+           search(0.1, 1.0),
+           "Dribble when ball and target lie within this angle"},
+          self.alignedAngle);
+    visit({"alignedAside",
+           Unit::Metre,
+           {0, 1},
+           search(0.03, 0.2),
+           "Dribble when the ball lies this near to the line"},
+          self.alignedAside);
+    visit({"kick", Unit::None, {0, 1}, fixed, "Whether to kick at all"}, self.kick);
+    visit({"kickAhead", Unit::Metre, {0, 1}, fixed, "Kick: ball this far ahead of the torso"},
+          self.kickAhead);
+    visit({"kickAheadTolerance", Unit::Metre, {0, 1}, fixed, "Kick: allowed error of kickAhead"},
+          self.kickAheadTolerance);
+    visit({"kickAside",
+           Unit::Metre,
+           {0, 0.3},
+           fixed,
+           "Kick: ball in front of the foot, this far from the middle"},
+          self.kickAside);
+    visit({"kickAsideTolerance", Unit::Metre, {0, 0.3}, fixed, "Kick: allowed error of kickAside"},
+          self.kickAsideTolerance);
+    visit({"kickAngle", Unit::Radian, {0, 3.2}, fixed, "Kick: allowed error of the heading"}, self.kickAngle);
+    visit({"kickApproach",
+           Unit::Radian,
+           {0, 3.2},
+           search(0.5, 3.1),
+           "Kick: the last steps go straight to their place when the target lies within this angle"},
+          self.kickApproach);
+    visit({"kickGain", Unit::Hertz, {0.1, 20}, search(1, 8), "Kick: speed per distance in the last steps"},
+          self.kickGain);
+    visit({"kickLeastSpeed",
+           Unit::MetrePerSecond,
+           {0, 1},
+           search(0, 0.3),
+           "Kick: speed of the last steps besides what kickGain gives"},
+          self.kickLeastSpeed);
+    visit({"kickOpponentDistance",
+           Unit::Metre,
+           {0, 10},
+           search(0.3, 2.5),
+           "Kick only when no opponent is nearer to the ball; a share of it (kickPress) once in place"},
+          self.kickOpponentDistance);
+    visit({"kickLane",
+           Unit::Metre,
+           {0, 2},
+           search(0.1, 0.8),
+           "Kick only when no opponent is nearer to the first metres of the ball's way"},
+          self.kickLane);
+    visit({"handleDistance",
+           Unit::Metre,
+           {0.3, 3},
+           search(0.5, 1.5),
+           "Nearer to the ball others are not walked around any more"},
+          self.handleDistance);
+    visit({"waitBehind", Unit::Metre, {0.1, 2}, fixed, "Set piece: the taker waits this far behind the ball"},
+          self.waitBehind);
+    visit({"kickStay",
+           Unit::None,
+           {1, 5},
+           fixed,
+           "Kick: tolerances grow by this factor while the robot comes to its stand"},
+          self.kickStay);
+    visit({"kickPress",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "Kick: share of kickOpponentDistance that holds once in place"},
+          self.kickPress);
+    visit({"kickLaneLength",
+           Unit::Metre,
+           {0.1, 20},
+           fixed,
+           "Kick: length of the ball's way that kickLane looks at"},
+          self.kickLaneLength);
+    visit({"kickRolling",
+           Unit::MetrePerSecond,
+           {0, 5},
+           fixed,
+           "Kick: a faster ball is not where it was when the foot comes"},
+          self.kickRolling);
+    visit({"kickMostSpeed", Unit::MetrePerSecond, {0, 3}, fixed, "Kick: fastest speed of the last steps"},
+          self.kickMostSpeed);
+    visit({"kickBehind",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "Kick: the last steps begin this share of kickAhead behind the ball"},
+          self.kickBehind);
+    visit({"alignedBehind", Unit::Metre, {0, 1}, fixed, "Dribble when this far behind the ball"},
+          self.alignedBehind);
+    visit({"circleBehind",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "Walk around the ball until this share of behindBall behind it"},
+          self.circleBehind);
+    visit({"faceAway",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "An approach point farther than this is faced on the way there"},
+          self.faceAway);
+    visit(
+        {"waitRoom", Unit::Metre, {0, 2}, fixed, "Set piece: room that the waiting taker leaves to the ball"},
+        self.waitRoom);
+  }
+};
+
+}  // namespace nonet::team

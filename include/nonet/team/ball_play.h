@@ -1,0 +1,49 @@
+// The ball as seen by the one who plays it: where it should go, and how the robot stands to it.
+#pragma once
+
+#include <span>
+
+#include "nonet/team/action.h"
+#include "nonet/team/parameters.h"
+#include "nonet/world/world_state.h"
+
+namespace nonet::team {
+
+/// When to kick instead of dribbling. A kick sends the ball seven metres in a second and a half, but the last
+/// steps must go to the right place, which an opponent at the ball does not allow.
+enum class KickUse : std::uint8_t {
+  Never,
+  IfFree,  // no opponent near the ball or in its way
+  Clear,   // as soon as no opponent is near the ball
+};
+
+struct BallPlay {
+  Vector2 p_FTarget = Vector2::Zero();  // own field frame, m
+  KickUse use = KickUse::Never;
+  bool wait = false;                     // stand ready behind the ball, but do not touch it yet
+  Vector2 p_FMeeting = Vector2::Zero();  // where the ball will be when one comes there, own field frame, m
+
+  std::span<const Candidate> candidates{};  // among which the target was chosen; empty unless recorded
+
+  // Robot frame, m.
+  Vector2 ball = Vector2::Zero();
+  Vector2 target = Vector2::Zero();
+  double direction = 0.0;  // in which the ball should go, rad
+  Vector2 along = Vector2::UnitX();
+  Vector2 aside = Vector2::UnitY();  // to the left of `along`
+  double behind = 0.0;               // how far the robot is behind the ball
+  double besides = 0.0;              // the ball to the left of the line through the robot
+
+  /// A place behind the ball as it will lie when one comes there, facing the target; own field frame.
+  Pose2 placeBehind(double distance) const;
+};
+
+/// Where a dribbled ball should go from its present place: to the goal, around an opponent that stands in
+/// the way. What it weighed is written to `record` unless that is null.
+Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& parameters,
+                   Candidates* record = nullptr);
+
+/// How much of the way is free of opponents: the distance of the nearest one from it, at most `widest`, m.
+double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest);
+
+}  // namespace nonet::team

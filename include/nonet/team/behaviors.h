@@ -1,0 +1,43 @@
+// The behaviours: each answers with an action when the situation calls for it, and with nothing otherwise.
+// One file each in src/team/behaviors/; strategy.cpp orders them.
+//
+// They need the whole situation (situation.h) and remember nothing: the same situation gives the same action.
+#pragma once
+
+#include <optional>
+
+#include "nonet/team/action.h"
+#include "nonet/team/situation.h"
+
+namespace nonet::team {
+
+/// Goes to the place for the kick-off by beam, and waits there.
+std::optional<Action> beforeKickOff(const Situation& situation);
+/// Stands while there is nothing to decide: game over, a skill runs, the robot rises.
+std::optional<Action> rest(const Situation& situation);
+/// Looks around for a ball that nobody knows of.
+std::optional<Action> searchBall(const Situation& situation);
+/// Stands and looks around until it knows where it is.
+std::optional<Action> findOneself(const Situation& situation);
+/// Goalie: throws itself at a shot that it cannot walk to.
+std::optional<Action> dive(const Situation& situation);
+/// Own set piece: stands behind the ball until the receiver is in its place.
+std::optional<Action> waitAtBall(const Situation& situation);
+/// One's turn, from afar: to a place behind the ball as it will lie then.
+std::optional<Action> goToBall(const Situation& situation);
+/// One's turn, near: the last steps to the place for a kick, and the kick.
+std::optional<Action> kick(const Situation& situation);
+/// One's turn, behind the ball: runs through it.
+std::optional<Action> dribble(const Situation& situation);
+/// One's turn, near but not behind the ball: around it.
+std::optional<Action> goBehindBall(const Situation& situation);
+/// Goalie: between ball and goal.
+std::optional<Action> guardGoal(const Situation& situation);
+/// The opponents take a kick: keeps the distance that the referee enforces, blocks the way to the own goal.
+std::optional<Action> opponentSetPiece(const Situation& situation);
+/// The own team takes a kick, another player takes it: receives, or stands in the formation.
+std::optional<Action> ownSetPiece(const Situation& situation);
+/// Stands in the place of one's role.
+std::optional<Action> support(const Situation& situation);
+
+}  // namespace nonet::team

@@ -1,0 +1,213 @@
+// Declared parameters of where players stand and how they go there.
+#pragma once
+
+#include "nonet/config/parameters.h"
+#include "nonet/math/angle.h"
+
+namespace nonet::team {
+
+/// Role positions relative to the ball (offensive group) and on the line from the own goal to the ball
+/// (backs), after [MacAlpine 2012a, section 6.1 and figure 5].
+struct FormationParameters {
+  double forwardAhead = 2.0;
+  double forwardAside = 2.5;
+  double wingBehind = 2.5;
+  double wingAside = 3.0;
+  double stopperBehind = 2.5;
+  double supporterBehind = 4.0;
+  double firstBackFromGoal = 3.0;
+  double secondBackFromGoal = 5.5;
+  double backAside = 0.7;
+  double touchLineMargin = 0.7;
+  double apart = 1.0;
+  double areaMargin = 0.3;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"forwardAhead", Unit::Metre, {0, 10}, search(0.5, 4), "Forwards: ahead of the ball"},
+          self.forwardAhead);
+    visit({"forwardAside", Unit::Metre, {0, 10}, search(1, 5), "Forwards: to the side of the ball"},
+          self.forwardAside);
+    visit({"wingBehind", Unit::Metre, {0, 10}, search(1, 5), "Wings: behind the ball"}, self.wingBehind);
+    visit({"wingAside", Unit::Metre, {0, 10}, search(1, 6), "Wings: to the side of the ball"},
+          self.wingAside);
+    visit({"stopperBehind", Unit::Metre, {0, 10}, search(0.8, 4), "Stopper: behind the ball"},
+          self.stopperBehind);
+    visit({"supporterBehind", Unit::Metre, {0, 10}, search(2, 8), "Supporter: behind the ball"},
+          self.supporterBehind);
+    visit({"firstBackFromGoal",
+           Unit::Metre,
+           {1, 15},
+           search(1.5, 5),
+           "Nearer back: distance from the own goal"},
+          self.firstBackFromGoal);
+    visit({"secondBackFromGoal",
+           Unit::Metre,
+           {1, 15},
+           search(3, 8),
+           "Farther back: distance from the own goal"},
+          self.secondBackFromGoal);
+    visit({"backAside", Unit::Metre, {0, 3}, search(0, 1.5), "Backs: to either side of the line goal - ball"},
+          self.backAside);
+    visit({"touchLineMargin", Unit::Metre, {0, 3}, fixed, "Positions stay this far inside the field"},
+          self.touchLineMargin);
+    visit({"apart", Unit::Metre, {0, 3}, fixed, "Positions are at least this far from each other"},
+          self.apart);
+    visit({"areaMargin",
+           Unit::Metre,
+           {0, 3},
+           fixed,
+           "Positions but one stay this far outside the own penalty area"},
+          self.areaMargin);
+  }
+};
+
+/// Set pieces of the own team (set_play.h) and of the opponents.
+struct SetPlayParameters {
+  double passLength = 1.3;
+  double behindPass = 0.45;
+  double receiverMargin = 0.3;
+  double receiverReady = 0.6;
+  double kickInAngle = toRadians(65);
+  double goalKickAngle = toRadians(35);
+  double cornerBack = 2.0;
+  double kickOffAngle = toRadians(-100);
+  double kickOffLine = 0.6;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"passLength",
+           Unit::Metre,
+           {0.2, 10},
+           fixed,
+           "To the receiver: a little more than the ball rolls after a push by a walking foot"},
+          self.passLength);
+    visit({"behindPass",
+           Unit::Metre,
+           {0, 3},
+           fixed,
+           "The receiver waits this far on the own side of the way of the ball"},
+          self.behindPass);
+    visit(
+        {"receiverMargin", Unit::Metre, {0, 3}, fixed, "The receiver stays this far inside the touch lines"},
+        self.receiverMargin);
+    visit({"receiverReady", Unit::Metre, {0, 5}, fixed, "The receiver is ready this near to its place"},
+          self.receiverReady);
+    visit({"kickInAngle", Unit::Radian, {0, 3.2}, fixed, "Kick-in: from the touch line into the field"},
+          self.kickInAngle);
+    visit({"goalKickAngle", Unit::Radian, {0, 3.2}, fixed, "Goal kick: from straight ahead to the middle"},
+          self.goalKickAngle);
+    visit(
+        {"cornerBack", Unit::Metre, {0, 10}, fixed, "Corner: towards a point this far in front of the goal"},
+        self.cornerBack);
+    visit({"kickOffAngle",
+           Unit::Radian,
+           {-3.2, 3.2},
+           fixed,
+           "Kick-off: to the right and a little back, away from the opponents"},
+          self.kickOffAngle);
+    visit({"kickOffLine",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "Kick-off: all but the taker stay this far behind the halfway line"},
+          self.kickOffLine);
+  }
+};
+
+/// Being beamed to the places for a kick-off (before_kick_off.cpp).
+struct BeamParameters {
+  double elsewhere = 0.7;
+  double again = 2.0;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"elsewhere", Unit::Metre, {0, 10}, fixed, "A robot farther from its place is beamed again"},
+          self.elsewhere);
+    visit({"again", Unit::Second, {0, 20}, fixed, "Least time between two beams to one place"}, self.again);
+  }
+};
+
+/// Going somewhere among others (navigation.h).
+struct NavigationParameters {
+  double lookAhead = 0.5;
+  double horizon = 2.0;
+  double fallenRoom = 0.2;
+  double atBall = 0.6;
+  double bodyRoom = 0.35;
+  double slip = 0.2;
+  double freeWay = 1.0;
+  double leastWay = 0.05;
+  double turnCost = 0.4;
+  double facingCost = 0.1;
+  double narrow = 0.72;
+  double narrowCost = 0.3;
+  double headingDistance = 0.7;
+  double closeEnough = 0.12;
+  double facing = 0.25;
+  double crowded = 0.1;
+  double detourStep = 1.0;
+  double slowStep = 0.25;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"lookAhead", Unit::Second, {0, 5}, fixed, "Others are thought to walk on for this time"},
+          self.lookAhead);
+    visit({"horizon", Unit::Metre, {0.1, 20}, fixed, "Length of the way that must be clear"}, self.horizon);
+    visit({"fallenRoom", Unit::Metre, {0, 2}, fixed, "More room around somebody who lies on the ground"},
+          self.fallenRoom);
+    visit({"atBall", Unit::Metre, {0, 3}, fixed, "Robots nearer to the ball take part in the duel"},
+          self.atBall);
+    visit({"bodyRoom", Unit::Metre, {0, 2}, fixed, "Between two torsos that just touch when both walk"},
+          self.bodyRoom);
+    visit({"slip",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "In somebody's room: a direction is barred when its cosine to that robot is larger"},
+          self.slip);
+    visit({"freeWay", Unit::Metre, {0.1, 10}, fixed, "Ways around are compared over this length"},
+          self.freeWay);
+    visit({"leastWay", Unit::Metre, {0, 1}, fixed, "A way around with less than this free is barred"},
+          self.leastWay);
+    visit({"turnCost", Unit::Metre, {0, 5}, fixed, "Free way that a detour of 1 rad must be worth"},
+          self.turnCost);
+    visit({"facingCost",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "Free way that a turn of the robot by 1 rad must be worth"},
+          self.facingCost);
+    visit({"narrow", Unit::None, {0, 1}, fixed, "Share of the usual room in a narrow passage"}, self.narrow);
+    visit({"narrowCost", Unit::Metre, {0, 5}, fixed, "Free way that a narrow passage must be worth"},
+          self.narrowCost);
+    visit({"headingDistance",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "Nearer to the target the robot takes the heading of the target"},
+          self.headingDistance);
+    visit({"closeEnough", Unit::Metre, {0, 1}, fixed, "Arrived: distance to the target"}, self.closeEnough);
+    visit({"facing", Unit::Radian, {0, 3.2}, fixed, "Arrived: error of the heading"}, self.facing);
+    visit({"crowded",
+           Unit::Metre,
+           {0, 2},
+           fixed,
+           "Beside bodyRoom: gives way when less than this is left to somebody"},
+          self.crowded);
+    visit({"detourStep", Unit::Metre, {0.05, 5}, fixed, "Distance of the next point on a way around"},
+          self.detourStep);
+    visit({"slowStep",
+           Unit::Metre,
+           {0.05, 5},
+           fixed,
+           "The same when giving way: the walk slows down towards a near target"},
+          self.slowStep);
+  }
+};
+
+}  // namespace nonet::team

@@ -1,0 +1,34 @@
+// WorldState -> Situation: what must be remembered from cycle to cycle for it.
+#pragma once
+
+#include "nonet/team/role_voting.h"
+#include "nonet/team/situation.h"
+#include "nonet/team/touch_watch.h"
+
+namespace nonet::team {
+
+class SituationTracker {
+ public:
+  explicit SituationTracker(const TeamParameters& parameters);
+
+  /// The situation points to `world`, `motion` and into this object: it is valid until the next call.
+  Situation update(const world::WorldState& world, const motion::MotionState& motion);
+  /// The robot asked to be beamed in this cycle.
+  void noticeBeam(double time) { lastBeam_ = time; }
+  /// For the own next message: role of players 2 to 11; empty without a view of the field.
+  const std::optional<protocol::RoleVote>& vote() const { return voting_.vote(); }
+
+  /// Whether choices write down what they weighed.
+  void recordCandidates(bool on) { recording_ = on; }
+
+ private:
+  TeamParameters parameters_;
+  RoleVoting voting_;
+  TouchWatch touches_;
+  Candidates targets_;
+  bool recording_ = false;
+  bool claims_ = false;              // the goalie goes to the ball
+  double lastBeam_ = world::kNever;  // server time, s
+};
+
+}  // namespace nonet::team

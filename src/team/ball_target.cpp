@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+
+#include "nonet/math/angle.h"
+#include "nonet/team/ball_play.h"
+
+namespace nonet::team {
+
+namespace {
+
+// Grids of what is compared: fine enough beside the width of the ball's way.
+constexpr int kPlacesAside = 3;  // in the goal, on either side of the middle
+constexpr int kTurns = 4;        // around an opponent, to either side
+constexpr double kTurnStep = toRadians(15);
+
+double angleOf(const Vector2& way) {
+  return std::atan2(way.y(), way.x());
+}
+
+// Where the ball should end up if nobody were on the field.
+Vector2 goalTarget(const world::WorldState& world, const BallTargetParameters& p) {
+  const double goalX = 0.5 * world.field.length;
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  // Near the opponent's goal line but beside the goal, first bring the ball to the middle.
+  if (ball.x() > goalX - p.cornerDepth && std::abs(ball.y()) > 0.5 * world.field.goalWidth + p.cornerAside)
+    return {goalX - p.cornerBack, 0.0};
+  // From afar at the middle, so that a push aside on the way does not end beside the goal.
+  const double inside = goalX - ball.x() > p.afar ? p.middle : 0.5 * world.field.goalWidth - p.insidePost;
+  return {goalX + p.behindLine, std::clamp(ball.y(), -inside, inside)};
+}
+
+// The place between the posts that the opponents leave most open, as long as turning there is worth it.
+Vector2 openGoal(const world::WorldState& world, const BallTargetParameters& p, Candidates* record) {
+  const double goalX = 0.5 * world.field.length;
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const double side = 0.5 * world.field.goalWidth - p.openPostMargin;
+  Vector2 best(goalX + p.behindLine, 0.0);
+  double bestScore = -1e9;
+  for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
+    const Vector2 place(goalX + p.behindLine, side * i / kPlacesAside);
+    const double turn = std::abs(angleDifference(angleOf(place - ball), world.self.X_FR.rotation));
+    const double score = laneWidth(world, ball, place, p.laneWidth) - p.openTurnCost * turn -
+                         p.openMiddle * std::abs(place.y());
+    if (record != nullptr) record->add(place, score);
+    if (score <= bestScore) continue;
+    bestScore = score;
+    best = place;
+  }
+  return best;
+}
+
+// Of an opponent near the ball, how much it bars this direction, 0 .. 1.
+double barred(const world::WorldState& world, const BallTargetParameters& p, double direction) {
+  double most = 0.0;
+  for (const world::PlayerState& player : world.opponents) {
+    if (!player.known) continue;
+    const Vector2 offset = player.X_FP.translation - world.ball.p_FB.head<2>();
+    const double distance = offset.norm();
+    if (distance > p.barReach) continue;
+    const double angle = std::abs(angleDifference(angleOf(offset), direction));
+    const double nearness = 1.0 - distance / p.barReach;
+    most = std::max(most, nearness * std::clamp(2.0 - angle / p.barWidth, 0.0, 1.0));
+  }
+  return most;
+}
+
+// The direction nearest to the straight one that no opponent bars.
+Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParameters& p, const Vector2& target,
+                        Candidates* record) {
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const double straight = angleOf(target - ball);
+  double best = straight;
+  double bestScore = -1e9;
+  for (int i = -kTurns; i <= kTurns; ++i) {
+    const double turn = i * kTurnStep;
+    const Vector2 end = ball + Vector2(std::cos(straight + turn), std::sin(straight + turn));
+    const bool out = std::abs(end.y()) > 0.5 * world.field.width - p.touchLineMargin;
+    const double facing = angleDifference(straight + turn, world.self.X_FR.rotation);
+    const double score = std::cos(turn) - p.barCost * barred(world, p, straight + turn) -
+                         p.facingCost * facing * facing - (out ? 1.0 : 0.0);
+    if (record != nullptr) record->add(end, score);
+    if (score <= bestScore) continue;
+    bestScore = score;
+    best = straight + turn;
+  }
+  return best != straight ? Vector2(ball + p.around * Vector2(std::cos(best), std::sin(best))) : target;
+}
+
+}  // namespace
+
+double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest) {
+  const Vector2 way = to - from;
+  const double squared = std::max(way.squaredNorm(), 1e-9);
+  double width = widest;
+  for (const world::PlayerState& player : world.opponents) {
+    if (!player.known) continue;
+    const Vector2 offset = player.X_FP.translation - from;
+    const double along = std::clamp(offset.dot(way) / squared, 0.0, 1.0);
+    width = std::min(width, (offset - along * way).norm());
+  }
+  return width;
+}
+
+Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& p, Candidates* record) {
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const Vector2 toGoal = Vector2(0.5 * world.field.length, 0.0) - ball;
+  const bool inFront = std::abs(toGoal.y()) < toGoal.x() + 0.5 * world.field.goalWidth - p.atGoalInside;
+  if (toGoal.norm() < p.atGoal && inFront) return openGoal(world, p, record);
+  const Vector2 target = goalTarget(world, p);
+  if (barred(world, p, angleOf(target - ball)) == 0.0) return target;
+  return aroundOpponents(world, p, target, record);
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,23 @@
+#include <cmath>
+
+#include "nonet/team/behaviors.h"
+
+namespace nonet::team {
+
+std::optional<Action> goBehindBall(const Situation& s) {
+  if (!s.play) return std::nullopt;
+  const BallPlay& play = *s.play;
+  const BallHandlingParameters& p = s.parameters.ball;
+  Vector2 next = play.ball - p.behindBall * play.along;
+  // Not behind the ball yet: go around it, on the side on which the robot already is. `behind` of the place
+  // itself is behindBall, so a share of it tells the two cases apart without flicker.
+  const bool around = play.behind < p.circleBehind * p.behindBall;
+  if (around) next += (play.besides > 0.0 ? -1.0 : 1.0) * p.circleRadius * play.aside;
+  const bool far = next.norm() > p.faceAway;
+  const double heading = far ? std::atan2(next.y(), next.x()) : play.direction;
+  Action action(motion::WalkTo{Pose2(next, heading), false}, around ? "around" : "straight");
+  action.reason.candidates = play.candidates;
+  return action;
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,29 @@
+#include <variant>
+
+#include "nonet/team/behaviors.h"
+#include "nonet/team/navigation.h"
+
+namespace nonet::team {
+
+std::optional<Action> waitAtBall(const Situation& s) {
+  if (!s.play || !s.play->wait) return std::nullopt;
+  Caution caution;
+  caution.robots = s.parameters.avoidDistance;
+  caution.ball = s.parameters.ball.waitRoom;
+  const Pose2 place = s.play->placeBehind(s.parameters.ball.waitBehind);
+  return Action(walkTo(s.world, s.parameters.navigation, place, caution), "for the receiver");
+}
+
+std::optional<Action> goToBall(const Situation& s) {
+  if (!s.play || s.play->ball.norm() < s.parameters.ball.handleDistance) return std::nullopt;
+  Caution caution;
+  caution.robots = s.parameters.avoidDistance;
+  caution.duel = true;
+  const Pose2 place = s.play->placeBehind(s.parameters.ball.behindBall);
+  Action action(walkTo(s.world, s.parameters.navigation, place, caution), "from afar");
+  if (auto* walk = std::get_if<motion::WalkTo>(&action.motion)) walk->stopAtTarget = false;
+  action.reason.candidates = s.play->candidates;
+  return action;
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,26 @@
+#include <algorithm>
+
+#include "nonet/team/behaviors.h"
+
+#include "team/behaviors/take_place.h"
+
+namespace nonet::team {
+
+// Everybody keeps the distance that the referee enforces; the one on the ball waits on the own goal's side.
+std::optional<Action> opponentSetPiece(const Situation& s) {
+  if (!world::isOpponentSetPiece(s.phase())) return std::nullopt;
+  constexpr double kAnyDistance = 0.1;  // m; only the direction counts, the place is moved out below
+  constexpr double kTieBreak = 1e-3;    // m; towards the own goal for a place on the ball itself
+  const Vector2 ball = s.ball();
+  const Vector2 ownGoal(-0.5 * s.world.field.length, 0.0);
+  const bool blocks = s.role == Role::OnBall;
+  Vector2 place = blocks ? Vector2(ball + kAnyDistance * (ownGoal - ball).normalized()) : rolePlace(s);
+  const Vector2 away = place - ball;
+  const double clear = s.parameters.clearOfOpponentKick;
+  if (away.norm() < clear) place = ball + clear * (away + Vector2(-kTieBreak, 0.0)).normalized();
+  if (s.phase() == world::Phase::OpponentKickOff)
+    place.x() = std::min(place.x(), -s.parameters.setPlay.kickOffLine);
+  return Action(takePlace(s, place), blocks ? "block the way to the goal" : "place of the role");
+}
+
+}  // namespace nonet::team

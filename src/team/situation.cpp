@@ -1,0 +1,145 @@
+#include "nonet/team/situation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nonet::team {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double nearestOpponent(const world::WorldState& world) {
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  double nearest = kInfinity;
+  for (const world::PlayerState& player : world.opponents) {
+    if (player.known && !player.fallen) nearest = std::min(nearest, (player.X_FP.translation - ball).norm());
+  }
+  return nearest;
+}
+
+Formation placesFor(const world::WorldState& world, const TeamParameters& parameters) {
+  FormationParameters formation = parameters.formation;
+  if (world::isOpponentSetPiece(world.game.phase)) {
+    // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
+    formation.stopperBehind =
+        std::max(formation.stopperBehind, parameters.clearOfOpponentKick + formation.apart);
+  }
+  return formationFor(world.ball.p_FB.head<2>(), kMaxAssigned, world.field, formation);
+}
+
+// Out of the way of the goal, to the side on which the ball is.
+Vector2 clearanceTarget(const Situation& s) {
+  const double aside = s.parameters.goalie.clearanceAside;
+  return {0.0, s.ball().y() >= 0.0 ? aside : -aside};
+}
+
+bool receiverReady(const Situation& s) {
+  const auto& mates = s.world.teammates;
+  return std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
+    const bool self = &mate == &mates[static_cast<std::size_t>(s.world.game.unum)];
+    return mate.known && !self && !mate.fallen &&
+           (mate.X_FP.translation - s.setPlay->p_FReceiver).norm() < s.parameters.setPlay.receiverReady;
+  });
+}
+
+}  // namespace
+
+bool Situation::waitsForKickOff() const {
+  return phase() == world::Phase::BeforeKickOff || phase() == world::Phase::OwnGoal ||
+         phase() == world::Phase::OpponentGoal;
+}
+
+bool Situation::free() const {
+  const bool clockRuns =
+      !waitsForKickOff() && phase() != world::Phase::GameOver && phase() != world::Phase::Other;
+  return clockRuns && !motion.busy && !motion.rising;
+}
+
+Pose2 BallPlay::placeBehind(double distance) const {
+  const Vector2 way = p_FTarget - p_FMeeting;
+  return {p_FMeeting - distance * way.normalized(), std::atan2(way.y(), way.x())};
+}
+
+BallPlay playTowards(const Situation& s, const Vector2& p_FTarget, KickUse use, bool wait) {
+  BallPlay play;
+  play.p_FTarget = p_FTarget;
+  play.use = use;
+  play.wait = wait;
+  const Pose2& X_FR = s.world.self.X_FR;
+  play.p_FMeeting = s.forecast.at(timeToBall({X_FR, true, false}, s.forecast, p_FTarget, s.parameters.pace));
+  play.ball = s.world.ball.p_RB;
+  play.target = X_FR.inverse() * p_FTarget;
+  const Vector2 way = play.target - play.ball;
+  play.direction = std::atan2(way.y(), way.x());
+  play.along = Vector2(std::cos(play.direction), std::sin(play.direction));
+  play.aside = Vector2(-play.along.y(), play.along.x());
+  play.behind = play.ball.dot(play.along);
+  play.besides = play.ball.dot(play.aside);
+  return play;
+}
+
+Situation assess(const world::WorldState& world, const TeamParameters& parameters,
+                 const motion::MotionState& motion, Candidates* record) {
+  Situation s{world, parameters, motion, BallForecast(world, parameters.pace)};
+  if (record != nullptr) record->clear();
+  s.p_FTarget = ballTarget(world, parameters.target, record);
+  if (record != nullptr) s.targets = record->all();
+  s.nearestOpponent = nearestOpponent(world);
+  s.timeToBall.fill(kInfinity);
+  for (std::size_t unum = 1; unum < s.timeToBall.size(); ++unum) {
+    const world::PlayerState& mate = world.teammates[unum];
+    if (!mate.known) continue;
+    s.timeToBall[unum] =
+        timeToBall({mate.X_FP, mate.headingKnown, mate.fallen}, s.forecast, s.p_FTarget, parameters.pace);
+  }
+  s.formation = placesFor(world, parameters);
+  const world::RadioReport& goalie = world.radio[1];
+  s.goalieClaims = world.time - goalie.time < parameters.agreement.claimAge && goalie.message.timeToBall &&
+                   !goalie.message.fallen;
+  if (world::isOwnSetPiece(s.phase()))
+    s.setPlay = setPlayFor(s.phase(), s.ball(), world.field, parameters.setPlay);
+  return s;
+}
+
+bool goalieWantsBall(const Situation& s, bool claims) {
+  if (s.phase() == world::Phase::OwnGoalKick) return true;
+  if (s.phase() != world::Phase::PlayOn) return false;
+  const GoalieParameters& p = s.parameters.goalie;
+  const Vector2 goal(-0.5 * s.world.field.length, 0.0);
+  const double reach = p.attackDistance * (claims ? p.keepClaim : 1.0);
+  if ((s.forecast.at(p.claimAhead) - goal).norm() > reach) return false;
+  // A field player that is sooner there and stands well keeps it.
+  const Vector2 target = clearanceTarget(s);
+  const PaceParameters& pace = s.parameters.pace;
+  const double own = timeToBall({s.world.self.X_FR, true, false}, s.forecast, target, pace);
+  const double margin = (claims ? -1.0 : p.claimMargin) * s.parameters.keepBallTime;
+  const auto& mates = s.world.teammates;
+  return std::none_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
+    const Runner runner{mate.X_FP, mate.headingKnown, mate.fallen};
+    return mate.known && timeToBall(runner, s.forecast, target, pace) < own + margin;
+  });
+}
+
+std::optional<BallPlay> ownTurn(const Situation& s) {
+  if (!s.acts()) return std::nullopt;
+  if (s.role == Role::Goalie) {
+    if (!s.claims) return std::nullopt;
+    return playTowards(s, clearanceTarget(s), KickUse::Clear);
+  }
+  const bool opponents = world::isOpponentSetPiece(s.phase());
+  if (s.role != Role::OnBall || s.goalieClaims || opponents) return std::nullopt;
+  if (s.setPlay) {
+    const double waited = s.world.time - s.world.game.phaseSince;
+    const bool wait = waited < s.parameters.waitForReceiver && !receiverReady(s);
+    const KickUse use = s.phase() == world::Phase::OwnKickOff ? KickUse::Never : KickUse::Clear;
+    return playTowards(s, s.setPlay->p_FTarget, use, wait);
+  }
+  if (!s.mayTouch) return std::nullopt;
+  BallPlay play = playTowards(s, s.p_FTarget, KickUse::IfFree);
+  play.candidates = s.targets;
+  return play;
+}
+
+}  // namespace nonet::team

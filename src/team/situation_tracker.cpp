@@ -1,0 +1,26 @@
+#include "nonet/team/situation_tracker.h"
+
+namespace nonet::team {
+
+SituationTracker::SituationTracker(const TeamParameters& parameters)
+    : parameters_(parameters), touches_(parameters.touch) {}
+
+// Who is on the ball and who stands where is reckoned also while one lies on the ground or waits for the
+// kick-off: the others need the votes.
+Situation SituationTracker::update(const world::WorldState& world, const motion::MotionState& motion) {
+  touches_.update(world);
+  Situation situation = assess(world, parameters_, motion, recording_ ? &targets_ : nullptr);
+  const int banned = touches_.banned();
+  voting_.update(situation, banned);
+  situation.role = world.game.unum == 1 ? Role::Goalie : voting_.role();
+  situation.onBall = voting_.onBall();
+  situation.mayTouch = banned != world.game.unum;
+  if (situation.role == Role::Goalie && situation.acts())
+    claims_ = situation.mayTouch && goalieWantsBall(situation, claims_);
+  situation.claims = claims_;
+  situation.lastBeam = lastBeam_;
+  situation.play = ownTurn(situation);
+  return situation;
+}
+
+}  // namespace nonet::team

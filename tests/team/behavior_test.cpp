@@ -1,0 +1,80 @@
+// The stage as a whole: a message in, an action out, with a reason, a place to look at and something to say.
+#include "nonet/team/behavior.h"
+
+#include <gtest/gtest.h>
+
+#include "nonet/protocol/say_codec.h"
+
+#include "scene.h"
+
+namespace nonet::team {
+namespace {
+
+class Stage : public testing::Test {
+ protected:
+  const Action& cycle() {
+    scene.world.time += kCycleTime;
+    scene.world.ball.lastSeen = scene.world.time;
+    return behavior.update(scene.world, scene.motion);
+  }
+
+  Scene scene;
+  Behavior behavior{scene.parameters};
+};
+
+// Alone on the field it votes for itself, goes to the ball and says so to whoever listens.
+TEST_F(Stage, AloneItPlaysTheBallAndSaysSo) {
+  std::optional<protocol::SayMessage> said;
+  for (int i = 0; i < 60; ++i) {
+    const Action& action = cycle();
+    ASSERT_TRUE(action.head);
+    ASSERT_FALSE(action.reason.behavior.empty());
+    if (action.say) said = protocol::decodeSay(action.say->view(), scene.world.game.team);
+  }
+  EXPECT_EQ(behavior.role(), Role::OnBall);
+  EXPECT_EQ(behavior.action().reason.behavior, "go to ball");
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->unum, 5);
+  ASSERT_TRUE(said->timeToBall);
+  EXPECT_NEAR(*said->timeToBall, 1.0 / scene.parameters.pace.walkSpeed, 0.3);
+}
+
+TEST_F(Stage, BeamsOnceInAPhase) {
+  scene.world.game.phase = world::Phase::BeforeKickOff;
+  scene.world.game.phaseSince = scene.world.time;
+  scene.world.self.localized = false;
+  int beams = 0;
+  for (int i = 0; i < 100; ++i) beams += cycle().beam ? 1 : 0;
+  EXPECT_EQ(beams, 1);
+  scene.world.game.phase = world::Phase::OpponentGoal;
+  scene.world.game.phaseSince = scene.world.time;
+  for (int i = 0; i < 100; ++i) beams += cycle().beam ? 1 : 0;
+  EXPECT_EQ(beams, 2);
+}
+
+// A kick that was asked for is held through small drifts: that depends on what motion was asked last.
+TEST_F(Stage, HoldsAKickThatItAskedFor) {
+  const BallHandlingParameters& p = scene.parameters.ball;
+  scene.stand(Pose2(0.0, 0.0, 0.0));
+  scene.putBall({p.kickAhead + 1.2 * p.kickAheadTolerance, p.kickAside});
+  for (int i = 0; i < 60; ++i) cycle();
+  ASSERT_EQ(behavior.role(), Role::OnBall);
+  EXPECT_FALSE(std::holds_alternative<motion::KickTo>(cycle().motion));
+  scene.motion.request = motion::KickTo{};
+  EXPECT_TRUE(std::holds_alternative<motion::KickTo>(cycle().motion));
+}
+
+TEST_F(Stage, TheSameWorldsGiveTheSameActions) {
+  Behavior other(scene.parameters);
+  for (int i = 0; i < 100; ++i) {
+    scene.putBall({1.0 + 0.01 * i, 0.2});
+    const Action& action = cycle();
+    const Action& again = other.update(scene.world, scene.motion);
+    EXPECT_EQ(action.reason.behavior, again.reason.behavior);
+    EXPECT_EQ(action.motion.index(), again.motion.index());
+    EXPECT_EQ(action.say.has_value(), again.say.has_value());
+  }
+}
+
+}  // namespace
+}  // namespace nonet::team

@@ -1,0 +1,69 @@
+#include "nonet/team/situation.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "nonet/math/random.h"
+#include "nonet/team/situation_tracker.h"
+
+#include "scene.h"
+
+namespace nonet::team {
+namespace {
+
+TEST(Situation, KnowsWhoIsHowFarFromTheBall) {
+  Scene scene;
+  Scene::put(scene.world.teammates[3], Pose2(0.9, 0.1, 0.0));
+  Scene::put(scene.world.opponents[4], Pose2(1.0, 2.0, 0.0));
+  Scene::put(scene.world.opponents[8], Pose2(1.0, 0.4, 0.0));
+  scene.world.opponents[8].fallen = true;
+  const Situation s = scene.situation(Role::Stopper);
+  EXPECT_DOUBLE_EQ(s.nearestOpponent, 2.0) << "who lies on the ground does not count";
+  EXPECT_LT(s.timeToBall[3], s.timeToBall[5]);
+  EXPECT_TRUE(std::isinf(s.timeToBall[4])) << "nobody has seen number 4";
+  // Oracle: one metre straight ahead of a robot that faces the ball and the goal.
+  EXPECT_NEAR(s.timeToBall[5], 1.0 / scene.parameters.pace.walkSpeed, 0.05);
+}
+
+// The geometry of the turn against the angle between two vectors, in fuzzed scenes.
+TEST(Situation, TheOwnTurnDescribesTheBallAsTheRobotSeesIt) {
+  Random random(8);
+  for (int trial = 0; trial < 300; ++trial) {
+    Scene scene;
+    scene.putBall({random.uniform(-14, 14), random.uniform(-9, 9)});
+    scene.stand(Pose2(random.uniform(-14, 14), random.uniform(-9, 9), random.uniform(-kPi, kPi)));
+    const Situation s = scene.situation(Role::OnBall);
+    ASSERT_TRUE(s.play);
+    const Vector2 forward = s.world.self.X_FR.rotate(Vector2::UnitX());
+    const Vector2 onward = (s.play->p_FTarget - s.ball()).normalized();
+    EXPECT_NEAR(std::cos(s.play->direction), forward.dot(onward), 1e-9);
+    const Vector2 offset = s.ball() - s.world.self.X_FR.translation;
+    EXPECT_NEAR(s.play->behind, offset.dot(onward), 1e-9);
+    EXPECT_NEAR(std::hypot(s.play->behind, s.play->besides), offset.norm(), 1e-9);
+    // A ball at rest is met where it lies, and the place behind it looks over it at the target.
+    EXPECT_LT((s.play->p_FMeeting - s.ball()).norm(), 1e-12);
+    const Pose2 behind = s.play->placeBehind(0.3);
+    EXPECT_LT((behind * Vector2(0.3, 0.0) - s.ball()).norm(), 1e-9);
+  }
+}
+
+TEST(SituationTracker, TellsWhatWasWeighedOnlyWhenAsked) {
+  Scene scene;
+  scene.stand(Pose2(12.0, 0.0, 0.0));
+  scene.putBall({12.5, 0.2});
+  SituationTracker tracker(scene.parameters);
+  EXPECT_TRUE(tracker.update(scene.world, scene.motion).targets.empty());
+  tracker.recordCandidates(true);
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    const Situation s = tracker.update(scene.world, scene.motion);
+    ASSERT_EQ(s.targets.size(), 7U) << "places in the goal, of this cycle only";
+    const auto* best = &s.targets[0];
+    for (const Candidate& candidate : s.targets)
+      if (candidate.value > best->value) best = &candidate;
+    EXPECT_EQ(best->p_F, s.p_FTarget) << "the best one was chosen";
+  }
+}
+
+}  // namespace
+}  // namespace nonet::team
