@@ -109,11 +109,12 @@ int acceptFile(OptimizeArguments& arguments) {
   origin.task = arguments.task;
   origin.robotType = config.robotType;
   origin.quickSolver = config.quickSolver;
-  origin.seeds = lab::trialSeeds(config.seed, 0, 1, config.trials);
+  origin.seeds = {};
+  origin.seeds.add(lab::SeedDraw{config.seed, 0, config.trials});
   origin.date = today();
   origin.version = NONET_VERSION;
-  const lab::Measurement measurement =
-      lab::measure(task, parameters, origin.seeds, config.taskSettings(dataFolder()), threadsOf(arguments));
+  const lab::Measurement measurement = lab::measure(task, parameters, origin.seeds.all(),
+                                                    config.taskSettings(dataFolder()), threadsOf(arguments));
   printMeasurement(measurement);
   origin.fitness = measurement.fitness;
   origin.standardError = measurement.standardError;

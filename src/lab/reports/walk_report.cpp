@@ -135,23 +135,6 @@ Walk turnOnTheSpot(TrialRobot& trial, double sense, std::uint64_t seed) {
 
 }  // namespace
 
-Estimate estimate(const std::vector<double>& samples) {
-  Estimate result;
-  if (samples.empty()) return result;
-  const auto n = static_cast<double>(samples.size());
-  for (const double sample : samples) result.mean += sample / n;
-  if (samples.size() < 2) return result;
-  double variance = 0.0;
-  for (const double sample : samples) variance += (sample - result.mean) * (sample - result.mean) / (n - 1.0);
-  // Quantile 0.975 of Student's t by its expansion about the normal one [Abramowitz 1964, 26.7.5].
-  const double z = 1.959964;
-  const double f = n - 1.0;
-  const double t = z + (z * z * z + z) / (4.0 * f) +
-                   (5.0 * std::pow(z, 5) + 16.0 * std::pow(z, 3) + 3.0 * z) / (96.0 * f * f);
-  result.ci95 = t * std::sqrt(variance / n);
-  return result;
-}
-
 WalkReport measureWalk(const WalkReportSettings& settings) {
   // One job per walk; measures in a fixed order: directions, ten seconds, turns.
   const int trials = settings.trials;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nonet/lab/statistics.h"
 #include "nonet/lab/trial/target_course.h"
 #include "nonet/lab/trial/trial_robot.h"
 
@@ -26,13 +27,6 @@ struct WalkReportSettings {
   double headingNoise = 0.02;           // rad
   std::optional<ServerAddress> server;  // measure there, one walk after the other, instead of in process
 };
-
-/// Mean and half width of the 95 % confidence interval of the mean.
-struct Estimate {
-  double mean = 0.0;
-  double ci95 = 0.0;
-};
-Estimate estimate(const std::vector<double>& samples);
 
 struct WalkReport {
   Estimate forwardTenSeconds;                      // m/s over ten seconds from a stand, towards a far target
