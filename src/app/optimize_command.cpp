@@ -261,7 +261,8 @@ void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
   command.add_option("--validation-trials", config.validationTrials, "Fresh seeds per validation")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_flag("--quick", config.quickSolver, "Iterative physics: faster, not exact");
+  command.add_flag("--quick", config.quickSolver,
+                   "Quick physics: the same equations, five times faster, not to the last bit");
   command.add_flag("--racing", config.racing, "The worse half of a generation gets half of the trials");
   command.add_option("--restarts", arguments.restarts, "none, ipop or bipop")->capture_default_str();
   command.add_option("--keys", config.keys, "Prefixes of the parameters to move; default: the task's");

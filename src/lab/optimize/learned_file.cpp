@@ -12,8 +12,8 @@
 #include <toml++/toml.h>
 
 #include "nonet/config/parameters.h"
+#include "nonet/lab/common/statistics.h"
 #include "nonet/lab/optimize/optimization_config.h"
-#include "nonet/lab/statistics.h"
 
 namespace nonet::lab {
 

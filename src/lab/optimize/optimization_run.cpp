@@ -14,7 +14,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "nonet/lab/statistics.h"
+#include "nonet/lab/common/statistics.h"
 
 namespace nonet::lab {
 

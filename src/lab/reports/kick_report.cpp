@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "nonet/lab/statistics.h"
+#include "nonet/lab/common/statistics.h"
 
 #include "lab/parallel.h"
 

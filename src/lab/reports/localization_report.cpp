@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "nonet/lab/statistics.h"
+#include "nonet/lab/common/statistics.h"
 #include "nonet/math/angle.h"
 
 namespace nonet::lab {

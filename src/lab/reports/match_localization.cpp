@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "nonet/lab/statistics.h"
+#include "nonet/lab/common/statistics.h"
 #include "nonet/math/angle.h"
 
 namespace nonet::lab {

@@ -8,7 +8,7 @@
 
 #include "nonet/agent/agent_setup.h"
 #include "nonet/config/parameters.h"
-#include "nonet/lab/statistics.h"
+#include "nonet/lab/common/statistics.h"
 #include "nonet/protocol/log_file.h"
 #include "nonet/protocol/percept_text.h"
 

@@ -10,7 +10,7 @@
 #include <asio.hpp>
 #include <fmt/format.h>
 
-#include "nonet/lab/trial/trial_robot.h"
+#include "nonet/lab/trial/measured_robot.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/percept_text.h"
 
@@ -88,7 +88,7 @@ std::optional<TruePose> findTorso(std::string_view scene) {
   return TruePose{Pose2(m[12], m[13], std::atan2(m[5], m[4])), m[14]};
 }
 
-class ServerRobot final : public TrialRobot {
+class ServerRobot final : public MeasuredRobot {
  public:
   ServerRobot(const TrialSetup& setup, const ServerAddress& address)
       : robot_(setup),
@@ -173,7 +173,7 @@ class ServerRobot final : public TrialRobot {
 
 }  // namespace
 
-std::unique_ptr<TrialRobot> connectTrialRobot(const TrialSetup& setup, const ServerAddress& address) {
+std::unique_ptr<MeasuredRobot> connectMeasuredRobot(const TrialSetup& setup, const ServerAddress& address) {
   return std::make_unique<ServerRobot>(setup, address);
 }
 

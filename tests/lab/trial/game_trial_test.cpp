@@ -61,8 +61,7 @@ TEST(GameTrial, MindIsFollowedAndSees) {
   situation.players = {
       player({-3.0, 0.0, 0.5}, false, [](const world::WorldState&, const motion::MotionState&) {
         team::Intent intent;
-        intent.motion.kind = motion::MotionRequest::Kind::WalkVelocity;
-        intent.motion.velocity = Pose2(0.6, 0.0, 0.0);
+        intent.motion = motion::WalkVelocity{Pose2(0.6, 0.0, 0.0)};
         return intent;
       })};
   situation.ball = {0.0, 1.0};

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "nonet/lab/statistics.h"
+#include "nonet/lab/common/statistics.h"
+#include "nonet/lab/trial/measured_robot.h"
 #include "nonet/lab/trial/target_course.h"
-#include "nonet/lab/trial/trial_robot.h"
 
 namespace nonet::lab {
 

@@ -1,4 +1,4 @@
-#include "nonet/lab/statistics.h"
+#include "nonet/lab/common/statistics.h"
 
 #include <algorithm>
 #include <cmath>
