@@ -1,36 +1,32 @@
 #include "nonet/agent/agent.h"
 
-#include "nonet/motion/joint_control.h"
-#include "nonet/motion/motion.h"
 #include "nonet/team/behavior.h"
-#include "nonet/world/world_model.h"
 
 namespace nonet::agent {
 
 struct Agent::Stages {
   explicit Stages(const AgentConfig& agentConfig)
-      : config(agentConfig),
-        model(model::robotModel(agentConfig.robotType)),
-        worldModel(model, config.parameters.world, protocol::TeamName(config.team), config.seed),
-        behavior(config.parameters.team),
-        motion(model, config.parameters.motion, config.skillFolder),
-        control(model, config.parameters.motion.control) {}
+      : config(agentConfig), robot(robotConfig(config)), behavior(config.parameters.team) {}
 
   AgentConfig config;
-  const model::RobotModel& model;
-  world::WorldModel worldModel;
+  Robot robot;
   team::Behavior behavior;
-  motion::Motion motion;
-  motion::JointControl control;
-  const world::WorldState* world = nullptr;
-  world::WorldState unknown;  // before the first message
   protocol::Effectors effectors;
   bool asked = false;
 };
 
-Agent::Agent(const AgentConfig& config) : stages_(std::make_unique<Stages>(config)) {
-  stages_->world = &stages_->unknown;
+RobotConfig robotConfig(const AgentConfig& config) {
+  RobotConfig robot;
+  robot.robotType = config.robotType;
+  robot.team = config.team;
+  robot.seed = config.seed;
+  robot.world = config.parameters.world;
+  robot.motion = config.parameters.motion;
+  robot.skillFolder = config.skillFolder;
+  return robot;
 }
+
+Agent::Agent(const AgentConfig& config) : stages_(std::make_unique<Stages>(config)) {}
 Agent::~Agent() = default;
 
 protocol::Effectors Agent::hello() const {
@@ -51,21 +47,15 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
     s.asked = true;
   }
 
-  s.world = &s.worldModel.update(percept);
-  const team::Action& action = s.behavior.update(*s.world, s.motion.state());
-  if (action.beam) {
-    effectors.beam = s.config.startPose ? s.config.startPose : action.beam;
-    s.worldModel.expectBeam(*effectors.beam);
-    s.motion.expectPutDown();
-  }
-  effectors.say = action.say;
-  const motion::JointTargets& targets = s.motion.update(*s.world, action.motion, *action.head);
-  s.control.update(s.world->body, targets, effectors);
+  const world::WorldState& world = s.robot.sense(percept);
+  team::Action action = s.behavior.update(world, s.robot.motion().state());
+  if (action.beam && s.config.startPose) action.beam = s.config.startPose;
+  s.robot.act(action, effectors);
   return effectors;
 }
 
 const world::WorldState& Agent::world() const {
-  return *stages_->world;
+  return stages_->robot.world();
 }
 team::Role Agent::role() const {
   return stages_->behavior.role();

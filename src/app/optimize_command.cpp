@@ -110,11 +110,12 @@ int acceptFile(OptimizeArguments& arguments) {
   origin.task = arguments.task;
   origin.robotType = config.robotType;
   origin.quickSolver = config.quickSolver;
-  origin.seeds = lab::trialSeeds(config.seed, 0, 1, config.trials);
+  origin.seeds = {};
+  origin.seeds.add(lab::SeedDraw{config.seed, 0, config.trials});
   origin.date = today();
   origin.version = NONET_VERSION;
-  const lab::Measurement measurement =
-      lab::measure(task, parameters, origin.seeds, config.taskSettings(dataFolder()), threadsOf(arguments));
+  const lab::Measurement measurement = lab::measure(task, parameters, origin.seeds.all(),
+                                                    config.taskSettings(dataFolder()), threadsOf(arguments));
   printMeasurement(measurement);
   origin.fitness = measurement.fitness;
   origin.standardError = measurement.standardError;
@@ -261,7 +262,8 @@ void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
   command.add_option("--validation-trials", config.validationTrials, "Fresh seeds per validation")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_flag("--quick", config.quickSolver, "Iterative physics: faster, not exact");
+  command.add_flag("--quick", config.quickSolver,
+                   "Quick physics: the same equations, five times faster, not to the last bit");
   command.add_flag("--racing", config.racing, "The worse half of a generation gets half of the trials");
   command.add_option("--restarts", arguments.restarts, "none, ipop or bipop")->capture_default_str();
   command.add_option("--keys", config.keys, "Prefixes of the parameters to move; default: the task's");

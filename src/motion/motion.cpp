@@ -133,10 +133,6 @@ Motion::Motion(const model::RobotModel& model, const MotionParameters& parameter
     : stages_(std::make_unique<Stages>(model, parameters, skillFolder)) {}
 Motion::~Motion() = default;
 
-void Motion::expectPutDown() {
-  stages_->putDown = true;
-}
-
 const MotionState& Motion::state() const {
   return stages_->state;
 }
@@ -149,10 +145,12 @@ const FallControl& Motion::fall() const {
 }
 
 const JointTargets& Motion::update(const world::WorldState& world, const MotionRequest& request,
-                                   const HeadRequest& head) {
+                                   const HeadRequest& head, const std::optional<Pose2>& beam) {
   Stages& s = *stages_;
   s.state = MotionState{};
   s.state.request = request;
+  s.state.beam = beam;
+  s.putDown = s.putDown || beam.has_value();
   const bool skillRuns = s.mode == Stages::Mode::Skill;
   const bool still = s.walk.standing() && world.body.gyro.norm() < kKickRate && world.body.footContact[0] &&
                      world.body.footContact[1];

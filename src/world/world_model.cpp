@@ -151,8 +151,9 @@ WorldModel::WorldModel(const model::RobotModel& model, const WorldParameters& pa
 
 WorldModel::~WorldModel() = default;
 
-const WorldState& WorldModel::update(const protocol::Percept& percept) {
+const WorldState& WorldModel::update(const protocol::Percept& percept, const std::optional<Pose2>& beam) {
   Stages& stages = *stages_;
+  if (beam) stages.beams.back() = beam;
   WorldState& state = stages.state;
   if (!stages.body.update(percept, state.body)) {
     // A server that stands still sends the same time again; who we are may be new in it.
@@ -181,10 +182,6 @@ const WorldState& WorldModel::update(const protocol::Percept& percept) {
   stages.fillSelf();
   stages.followOthers(percept);
   return state;
-}
-
-void WorldModel::expectBeam(const Pose2& X_FR) {
-  stages_->beams.back() = X_FR;
 }
 
 const WorldState& WorldModel::state() const {

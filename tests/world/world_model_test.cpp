@@ -320,8 +320,7 @@ TEST(WorldModel, ForeignAgentsBeamsDoNotMislead) {
   WorldModel world(model::robotModel(0), {}, protocol::TeamName("Gold"), 1);
   double worst = 0.0;
   test::readRecording("half_time.log.gz", [&](const protocol::Percept& percept) {
-    world.expectBeam(Pose2(-3.0, 5.0, 0.5));
-    const WorldState& state = world.update(percept);
+    const WorldState& state = world.update(percept, Pose2(-3.0, 5.0, 0.5));
     if (!percept.vision || !percept.vision->truePosition || state.game.unum == 0) return;
     worst = std::max(worst, (state.self.X_FC.translation() - *percept.vision->truePosition).head<2>().norm());
   });

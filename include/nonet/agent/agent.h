@@ -7,6 +7,7 @@
 #include <string>
 
 #include "nonet/agent/parameters.h"
+#include "nonet/agent/robot.h"
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
 #include "nonet/team/action.h"
@@ -24,6 +25,9 @@ struct AgentConfig {
   std::string skillFolder;         // folder of the *.skl files
   std::optional<Pose2> startPose;  // challenges: beam here instead of to the kick-off place (own field frame)
 };
+
+/// The part of it below the team.
+RobotConfig robotConfig(const AgentConfig& config);
 
 class Agent {
  public:

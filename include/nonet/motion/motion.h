@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "nonet/model/robot_model.h"
@@ -21,10 +22,9 @@ class Motion {
   Motion(const model::RobotModel& model, const MotionParameters& parameters, const std::string& skillFolder);
   ~Motion();
 
+  /// With a `beam` the robot is about to be put down there at rest: it stands instead of ending its steps.
   const JointTargets& update(const world::WorldState& world, const MotionRequest& request,
-                             const HeadRequest& head);
-  /// The robot is about to be put down somewhere at rest (a beam): it stands instead of ending its steps.
-  void expectPutDown();
+                             const HeadRequest& head, const std::optional<Pose2>& beam = {});
   const MotionState& state() const;
   /// For measurements and drawings.
   const WalkControl& walk() const;

@@ -1,6 +1,9 @@
 // What the body is doing: motion's word to the next cycle's decision.
 #pragma once
 
+#include <optional>
+
+#include "nonet/math/pose2.h"
 #include "nonet/motion/request.h"
 
 namespace nonet::motion {
@@ -10,6 +13,7 @@ struct MotionState {
   bool rising = false;         // getting up
   bool busy = false;           // a skill or kick runs that must not be interrupted
   bool skillFinished = false;  // the requested skill ended in this cycle
+  std::optional<Pose2> beam;   // asked for in the last cycle, own field frame
 
   bool askedForKick() const { return std::holds_alternative<KickTo>(request); }
 };

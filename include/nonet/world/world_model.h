@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "nonet/math/pose2.h"
 #include "nonet/model/robot_model.h"
 #include "nonet/protocol/percept.h"
 #include "nonet/world/localization.h"
@@ -17,11 +19,9 @@ class WorldModel {
              const protocol::TeamName& team, std::uint64_t seed);
   ~WorldModel();
 
-  /// Absorbs one message. The reference stays valid until the next call.
-  const WorldState& update(const protocol::Percept& percept);
-
-  /// Tells the localization that the robot asked to be beamed to X_FR (own field frame).
-  void expectBeam(const Pose2& X_FR);
+  /// Absorbs one message. `beam`: where the robot asked to be beamed in its last answer (own field frame).
+  /// The reference stays valid until the next call.
+  const WorldState& update(const protocol::Percept& percept, const std::optional<Pose2>& beam = {});
 
   const WorldState& state() const;
 

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #define TOML_ENABLE_FORMATTERS 0  // reading only
 #include <toml++/toml.h>
 
 #include "nonet/config/parameters.h"
+#include "nonet/lab/common/statistics.h"
 #include "nonet/lab/optimize/optimization_config.h"
 
 namespace nonet::lab {
@@ -44,8 +46,15 @@ Provenance provenanceFrom(const toml::table& table, const std::string& path) {
   origin.date = require<std::string>(table, "date", path);
   origin.version = require<std::string>(table, "version", path);
   if (const toml::array* seeds = table["seeds"].as_array()) {
-    for (const auto& seed : *seeds)
-      origin.seeds.push_back(static_cast<std::uint64_t>(seed.value_or<std::int64_t>(0)));
+    for (const auto& seed : *seeds) {
+      if (const toml::table* draw = seed.as_table()) {
+        origin.seeds.add(SeedDraw{static_cast<std::uint64_t>(require<std::int64_t>(*draw, "seed", path)),
+                                  require<int>(*draw, "generation", path),
+                                  require<int>(*draw, "count", path)});
+      } else {
+        origin.seeds.add(static_cast<std::uint64_t>(seed.value_or<std::int64_t>(0)));
+      }
+    }
   }
   return origin;
 }
@@ -67,12 +76,26 @@ std::string provenanceToml(const Provenance& origin) {
       "budget = {}\n"
       "fitness = {}\n"
       "standardError = {}\n"
-      "seeds = [{}]\n"
+      "seeds = {}\n"
       "date = \"{}\"\n"
       "version = \"{}\"\n",
       origin.task, origin.task, origin.robotType, origin.quickSolver ? kQuick : kExact, origin.runSeed,
       origin.population, origin.generation, origin.budget, real(origin.fitness), real(origin.standardError),
-      fmt::join(origin.seeds, ", "), origin.date, origin.version);
+      origin.seeds.toToml(), origin.date, origin.version);
+}
+
+// What a reader wants to know first.
+std::string summary(const std::vector<Provenance>& origins) {
+  std::string text =
+      "# Learned values. Where they come from stands at the end; `nonet optimize --repeat FILE` measures\n"
+      "# their fitness again.\n"
+      "#\n"
+      "#   task              fitness            trials  found\n";
+  for (const Provenance& origin : origins) {
+    text += fmt::format("#   {:<16} {:9.3f} +- {:<7.3f} {:6}  {}\n", origin.task, origin.fitness,
+                        origin.standardError, origin.seeds.size(), origin.date);
+  }
+  return text;
 }
 
 std::string tableOf(const std::string& key) {
@@ -91,7 +114,7 @@ json Provenance::toJson() const {
           {"budget", budget},
           {"fitness", fitness},
           {"standardError", standardError},
-          {"seeds", seeds},
+          {"seeds", seeds.toJson()},
           {"date", date},
           {"version", version}};
 }
@@ -107,7 +130,7 @@ Provenance Provenance::fromJson(const json& value) {
   value.at("budget").get_to(origin.budget);
   value.at("fitness").get_to(origin.fitness);
   value.at("standardError").get_to(origin.standardError);
-  value.at("seeds").get_to(origin.seeds);
+  origin.seeds = SeedList::fromJson(value.at("seeds"));
   value.at("date").get_to(origin.date);
   value.at("version").get_to(origin.version);
   return origin;
@@ -151,9 +174,9 @@ std::string learnedToml(const agent::AgentParameters& parameters, const agent::A
     if (tables.contains(tableOf(fields[i].key)) || value(fields[i]) != value(baseFields[i]))
       kept.push_back(fields[i]);
   }
-  std::string text = "# Learned values. `nonet optimize --repeat FILE` measures their fitness again.\n";
+  std::string text = summary(origins) + "\n" + config::detail::toToml(kept, nullptr);
   for (const Provenance& origin : origins) text += "\n" + provenanceToml(origin);
-  return text + "\n" + config::detail::toToml(kept, nullptr);
+  return text;
 }
 
 Measurement measure(const Task& task, const agent::AgentParameters& parameters,
@@ -175,10 +198,8 @@ Measurement measure(const Task& task, const agent::AgentParameters& parameters,
   Measurement measurement;
   if (values.empty()) return measurement;
   const auto count = static_cast<double>(values.size());
-  for (const double value : values) measurement.fitness += value / count;
-  double squares = 0.0;
-  for (const double value : values) squares += std::pow(value - measurement.fitness, 2);
-  if (values.size() > 1) measurement.standardError = std::sqrt(squares / (count - 1.0) / count);
+  measurement.fitness = mean(values);
+  measurement.standardError = standardError(values);
   for (std::size_t m = 0; m < results[0].measures.size(); ++m) {
     double sum = 0.0;
     for (const TaskResult& result : results) sum += result.measures.at(m).second;
@@ -195,7 +216,7 @@ std::vector<Repetition> repeatLearned(const std::string& file, const std::string
     const TaskSettings settings{
         .robotType = origin.robotType, .quickSolver = origin.quickSolver, .dataFolder = dataFolder};
     repetitions.push_back(
-        {origin, measure(findTask(origin.task), parameters, origin.seeds, settings, threads)});
+        {origin, measure(findTask(origin.task), parameters, origin.seeds.all(), settings, threads)});
   }
   return repetitions;
 }

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/config/parameters.h"
-#include "nonet/math/random.h"
 
 namespace nonet::lab {
 
@@ -112,15 +111,6 @@ void setStart(OptimizationConfig& config, const std::string& dataFolder,
   if (std::filesystem::exists(typeFile)) overlay(typeFile);
   for (const std::string& file : files) overlay(file);
   config.parameters = config::toToml(start);
-}
-
-std::vector<std::uint64_t> trialSeeds(std::uint64_t runSeed, int generation, int stream, int count) {
-  Random random =
-      Random(runSeed).fork(2U * static_cast<std::uint64_t>(generation) + static_cast<std::uint64_t>(stream));
-  std::vector<std::uint64_t> seeds;
-  seeds.reserve(static_cast<std::size_t>(std::max(count, 0)));
-  for (int i = 0; i < count; ++i) seeds.push_back(random.next() >> 32U);
-  return seeds;
 }
 
 Objective makeObjective(const OptimizationConfig& config, const std::string& dataFolder) {

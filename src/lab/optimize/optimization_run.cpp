@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/statistics.h"
 
 namespace nonet::lab {
 
@@ -28,21 +29,6 @@ constexpr const char* kGenerations = "/generations.jsonl";
 constexpr const char* kCheckpoint = "/checkpoint.json";
 constexpr const char* kBest = "/best.toml";
 constexpr const char* kLock = "/lock";
-
-enum Stream : int { kCandidates = 0, kValidation = 1 };
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double standardError(const std::vector<double>& values) {
-  if (values.size() < 2) return 0.0;
-  const double middle = mean(values);
-  double squares = 0.0;
-  for (const double value : values) squares += (value - middle) * (value - middle);
-  const auto count = static_cast<double>(values.size());
-  return std::sqrt(squares / (count - 1.0) / count);
-}
 
 json vectorJson(const Eigen::VectorXd& vector) {
   return std::vector<double>(vector.begin(), vector.end());
@@ -149,7 +135,7 @@ OptimizationRun OptimizationRun::resume(const std::string& folder, const std::st
     throw std::runtime_error(
         fmt::format("{} is shorter than its checkpoint says; the run is damaged", lines));
   fs::resize_file(lines, static_cast<std::uintmax_t>(run.bytes_));
-  if (run.incumbent_.seeds.empty()) {
+  if (run.incumbent_.seeds.size() == 0) {
     fs::remove(folder + kBest);
   } else {
     run.writeBest();
@@ -202,7 +188,8 @@ OptimizationRun::Values OptimizationRun::evaluateGeneration(Evaluator& evaluator
 // Fresh seeds, the same for all, and a challenger must win by more than the standard error of the paired
 // difference: the best of many noisy values is mostly luck.
 void OptimizationRun::validate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers) {
-  const auto seeds = trialSeeds(config_.seed, generation_, kValidation, config_.validationTrials);
+  const auto seeds = trialSeeds(config_.seed, generation_, SeedStream::Validation, config_.validationTrials);
+  const SeedDraw draw{config_.seed, generation_, config_.validationTrials};
   std::vector<Eigen::VectorXd> points{incumbent_.point};
   points.insert(points.end(), challengers.begin(), challengers.end());
   const Values values = evaluate(evaluator, points, seeds);
@@ -213,17 +200,18 @@ void OptimizationRun::validate(Evaluator& evaluator, const std::vector<Eigen::Ve
     if (mean(gain) > standardError(gain)) winner = k;
   }
   if (winner == 0) {
-    incumbent_.seeds.insert(incumbent_.seeds.end(), seeds.begin(), seeds.end());
+    incumbent_.seeds.add(draw);
     incumbent_.values.insert(incumbent_.values.end(), values[0].begin(), values[0].end());
   } else {
-    incumbent_ = {points[winner], seeds, values[winner], generation_, trials_};
+    incumbent_ = {points[winner], {}, values[winner], generation_, trials_};
+    incumbent_.seeds.add(draw);
   }
 }
 
 bool OptimizationRun::step(Evaluator& evaluator, GenerationReport& report) {
   if (generation_ >= config_.generations || optimizer_.finished()) return false;
   const Eigen::MatrixXd points = optimizer_.ask();
-  const auto seeds = trialSeeds(config_.seed, generation_ + 1, kCandidates, config_.trials);
+  const auto seeds = trialSeeds(config_.seed, generation_ + 1, SeedStream::Candidates, config_.trials);
   const Values values = evaluateGeneration(evaluator, points, seeds);
   const Eigen::VectorXd fitness = rankingFitness(values, seeds.size());
   optimizer_.tell(-fitness);  // it minimises
@@ -286,7 +274,7 @@ void OptimizationRun::writeCheckpoint() const {
                       {"optimizer", optimizer_.save()},
                       {"incumbent",
                        {{"point", vectorJson(incumbent_.point)},
-                        {"seeds", incumbent_.seeds},
+                        {"seeds", incumbent_.seeds.toJson()},
                         {"values", incumbent_.values},
                         {"generation", incumbent_.generation},
                         {"budget", incumbent_.budget}}}};
@@ -301,7 +289,7 @@ void OptimizationRun::readCheckpoint() {
   optimizer_ = RestartingCmaEs::restore(state.at("optimizer"));
   const json& incumbent = state.at("incumbent");
   incumbent_.point = vectorFrom(incumbent.at("point"));
-  incumbent.at("seeds").get_to(incumbent_.seeds);
+  incumbent_.seeds = SeedList::fromJson(incumbent.at("seeds"));
   incumbent.at("values").get_to(incumbent_.values);
   incumbent.at("generation").get_to(incumbent_.generation);
   incumbent.at("budget").get_to(incumbent_.budget);

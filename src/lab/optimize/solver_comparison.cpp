@@ -51,7 +51,7 @@ SolverComparison compareSolvers(const OptimizationConfig& config, int sets, cons
                                 int threads) {
   const SearchSpace space(config.startParameters(dataFolder), config.searchedKeys());
   Random random = Random(config.seed).fork(3);
-  const auto seeds = trialSeeds(config.seed, 0, 0, config.trials);
+  const auto seeds = trialSeeds(config.seed, 0, SeedStream::Candidates, config.trials);
   std::vector<Job> jobs;
   for (int k = 0; k < sets; ++k) {
     const double spread = config.sigma * random.uniform(0.2, 1.5);

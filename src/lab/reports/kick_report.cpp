@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "nonet/lab/common/statistics.h"
+
 #include "lab/common/parallel.h"
 
 namespace nonet::lab {
@@ -19,14 +21,13 @@ KickStatistics statisticsOf(const std::vector<Kick>& kicks) {
   KickStatistics s;
   s.kicks = static_cast<int>(kicks.size());
   const auto count = static_cast<double>(s.kicks);
-  double squares = 0.0;
+  std::vector<double> distances;
   int hits = 0;
   int straight = 0;
   for (const Kick& kick : kicks) {
     s.falls += kick.fell ? 1 : 0;
     s.misses += kick.missed() ? 1 : 0;
-    s.distance += kick.forward / count;
-    squares += kick.forward * kick.forward;
+    distances.push_back(kick.forward);
     s.duration += kick.duration / count;
     if (kick.missed()) continue;
     ++hits;
@@ -35,8 +36,9 @@ KickStatistics statisticsOf(const std::vector<Kick>& kicks) {
   }
   if (hits > 0) s.directionError /= hits;
   s.withinTen = straight / count;
-  const double variance = std::max(0.0, squares / count - s.distance * s.distance);
-  s.ci95 = 1.96 * std::sqrt(variance / std::max(1.0, count - 1.0));
+  const Estimate distance = estimate(distances);
+  s.distance = distance.mean;
+  s.ci95 = distance.ci95;
   return s;
 }
 

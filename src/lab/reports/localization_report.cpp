@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "nonet/lab/common/statistics.h"
 #include "nonet/math/angle.h"
 
 namespace nonet::lab {
@@ -15,17 +16,13 @@ namespace {
 constexpr double kQuantile95 = 5.991;                  // chi-squared, two degrees of freedom
 constexpr double kPrintedVariance = 0.01 * 0.01 / 12;  // m^2, uniform rounding to 0.01 m
 
-LocalizationReport::ErrorQuantiles quantilesOf(std::vector<double> sample) {
+LocalizationReport::ErrorQuantiles quantilesOf(const std::vector<double>& sample) {
   LocalizationReport::ErrorQuantiles result;
   if (sample.empty()) return result;
-  std::sort(sample.begin(), sample.end());
-  const auto at = [&](double share) {
-    return sample[static_cast<std::size_t>(std::lround(share * static_cast<double>(sample.size() - 1)))];
-  };
-  result.median = at(0.5);
-  result.p95 = at(0.95);
-  result.largest = sample.back();
-  for (const double value : sample) result.mean += value / static_cast<double>(sample.size());
+  result.median = quantile(sample, 0.5);
+  result.p95 = quantile(sample, 0.95);
+  result.largest = *std::max_element(sample.begin(), sample.end());
+  result.mean = mean(sample);
   return result;
 }
 
@@ -123,12 +120,12 @@ LocalizationReport::Summary LocalizationReport::summary() const {
     inside += frame.inside() ? 1 : 0;
   }
   const auto count = static_cast<double>(frames_.size());
-  summary.position = quantilesOf(std::move(position));
-  summary.height = quantilesOf(std::move(height));
-  summary.heading = quantilesOf(std::move(heading));
+  summary.position = quantilesOf(position);
+  summary.height = quantilesOf(height);
+  summary.heading = quantilesOf(heading);
   summary.coverage95 = static_cast<double>(inside) / count;
   summary.localizedShare = static_cast<double>(localized.size()) / count;
-  summary.localizedPosition = quantilesOf(std::move(localized));
+  summary.localizedPosition = quantilesOf(localized);
   return summary;
 }
 

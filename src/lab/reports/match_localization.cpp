@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "nonet/lab/common/statistics.h"
 #include "nonet/math/angle.h"
 
 namespace nonet::lab {
@@ -29,13 +30,6 @@ Vector3 turned(const Vector3& p, bool fromRight) {
 double yawOfForward(const sim::ScenePose& pose) {
   const auto forward = pose.rotation.col(1).cast<double>();  // the server's bodies look along y
   return std::atan2(forward.y(), forward.x());
-}
-
-double quantile(std::vector<double> sample, double share) {
-  if (sample.empty()) return 0.0;
-  const auto n = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(sample.size() - 1)));
-  std::nth_element(sample.begin(), sample.begin() + n, sample.end());
-  return sample[static_cast<std::size_t>(n)];
 }
 
 std::string row(std::string_view name, const LocalizationReport& report) {

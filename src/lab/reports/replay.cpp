@@ -8,6 +8,7 @@
 
 #include "nonet/agent/agent_setup.h"
 #include "nonet/config/parameters.h"
+#include "nonet/lab/common/statistics.h"
 #include "nonet/protocol/log_file.h"
 #include "nonet/protocol/percept_text.h"
 
@@ -90,13 +91,9 @@ std::string_view perceptorName(PerceptKind kind) {
   return "?";
 }
 
-std::optional<Quantiles> quantiles(std::vector<double> sample) {
+std::optional<Quantiles> quantiles(const std::vector<double>& sample) {
   if (sample.empty()) return std::nullopt;
-  std::sort(sample.begin(), sample.end());
-  const auto at = [&](double share) {
-    return sample[static_cast<std::size_t>(std::lround(share * static_cast<double>(sample.size() - 1)))];
-  };
-  return Quantiles{sample.size(), at(0.5), at(0.95)};
+  return Quantiles{sample.size(), quantile(sample, 0.5), quantile(sample, 0.95)};
 }
 
 class Replay {
@@ -189,14 +186,11 @@ class Replay {
     report_.perceptors["See: ball"] = balls_;
     report_.perceptors["See: players"] = players_;
     report_.perceptors["See: lines"] = lines_;
-    if (!cycles_.empty()) {
-      std::sort(cycles_.begin(), cycles_.end());
-      report_.cycleMedian = cycles_[cycles_.size() / 2];
-      report_.cycleP999 = cycles_[(cycles_.size() - 1) * 999 / 1000];
-    }
-    report_.positionError = quantiles(std::move(positionErrors_));
-    report_.headingError = quantiles(std::move(headingErrors_));
-    report_.ballError = quantiles(std::move(ballErrors_));
+    report_.cycleMedian = quantile(cycles_, 0.5);
+    report_.cycleP999 = quantile(cycles_, 0.999);
+    report_.positionError = quantiles(positionErrors_);
+    report_.headingError = quantiles(headingErrors_);
+    report_.ballError = quantiles(ballErrors_);
   }
 
   const ReplayOptions& options_;

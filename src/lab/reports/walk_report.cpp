@@ -31,7 +31,7 @@ struct Walk {
 class NoisyPose {
  public:
   NoisyPose(const WalkReportSettings& settings, Random random) : settings_(&settings), random_(random) {}
-  Pose2 of(const TrialRobot& trial) {
+  Pose2 of(const MeasuredRobot& trial) {
     if (cycle_++ % 3 == 0) {
       noise_ =
           Pose2(random_.normal(0.0, settings_->positionNoise), random_.normal(0.0, settings_->positionNoise),
@@ -49,12 +49,12 @@ class NoisyPose {
 };
 
 // Stands somewhere, for a random while, so that trials differ in the phase of vision and in the last digits.
-void begin(TrialRobot& trial, Random& random) {
+void begin(MeasuredRobot& trial, Random& random) {
   trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
   trial.run(MotionRequest{}, random.uniform(0.02, 0.4));
 }
 
-Walk walkInDirection(TrialRobot& trial, const WalkReportSettings& settings, double direction,
+Walk walkInDirection(MeasuredRobot& trial, const WalkReportSettings& settings, double direction,
                      std::uint64_t seed) {
   Random random(seed);
   begin(trial, random);
@@ -83,7 +83,7 @@ Walk walkInDirection(TrialRobot& trial, const WalkReportSettings& settings, doub
   return walk;
 }
 
-Walk walkTenSeconds(TrialRobot& trial, const WalkReportSettings& settings, std::uint64_t seed) {
+Walk walkTenSeconds(MeasuredRobot& trial, const WalkReportSettings& settings, std::uint64_t seed) {
   Random random(seed);
   begin(trial, random);
   NoisyPose noisy(settings, random.fork(1));
@@ -109,7 +109,7 @@ Walk walkTenSeconds(TrialRobot& trial, const WalkReportSettings& settings, std::
   return walk;
 }
 
-Walk turnOnTheSpot(TrialRobot& trial, double sense, std::uint64_t seed) {
+Walk turnOnTheSpot(MeasuredRobot& trial, double sense, std::uint64_t seed) {
   Random random(seed);
   begin(trial, random);
   motion::WalkVelocity request;
@@ -135,23 +135,6 @@ Walk turnOnTheSpot(TrialRobot& trial, double sense, std::uint64_t seed) {
 
 }  // namespace
 
-Estimate estimate(const std::vector<double>& samples) {
-  Estimate result;
-  if (samples.empty()) return result;
-  const auto n = static_cast<double>(samples.size());
-  for (const double sample : samples) result.mean += sample / n;
-  if (samples.size() < 2) return result;
-  double variance = 0.0;
-  for (const double sample : samples) variance += (sample - result.mean) * (sample - result.mean) / (n - 1.0);
-  // Quantile 0.975 of Student's t by its expansion about the normal one [Abramowitz 1964, 26.7.5].
-  const double z = 1.959964;
-  const double f = n - 1.0;
-  const double t = z + (z * z * z + z) / (4.0 * f) +
-                   (5.0 * std::pow(z, 5) + 16.0 * std::pow(z, 3) + 3.0 * z) / (96.0 * f * f);
-  result.ci95 = t * std::sqrt(variance / n);
-  return result;
-}
-
 WalkReport measureWalk(const WalkReportSettings& settings) {
   // One job per walk; measures in a fixed order: directions, ten seconds, turns.
   const int trials = settings.trials;
@@ -159,17 +142,17 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
   const int count = directions + trials + 2 * trials;
   std::vector<Walk> walks(static_cast<std::size_t>(count));
   const Random seeds(settings.seed);
-  std::unique_ptr<TrialRobot> remote;
-  if (settings.server) remote = connectTrialRobot(settings.setup, *settings.server);
+  std::unique_ptr<MeasuredRobot> remote;
+  if (settings.server) remote = connectMeasuredRobot(settings.setup, *settings.server);
   inParallel(count, remote ? 1 : settings.threads, [&](int i) {
     const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
-    std::unique_ptr<TrialRobot> own;
+    std::unique_ptr<MeasuredRobot> own;
     if (!remote) {
       TrialSetup setup = settings.setup;
       setup.seed = seed;
-      own = makeTrialRobot(setup);
+      own = makeMeasuredRobot(setup);
     }
-    TrialRobot& robot = remote ? *remote : *own;
+    MeasuredRobot& robot = remote ? *remote : *own;
     Walk& walk = walks[static_cast<std::size_t>(i)];
     if (i < directions) {
       walk = walkInDirection(robot, settings, 2.0 * kPi * (i / trials) / kWalkDirections, seed);

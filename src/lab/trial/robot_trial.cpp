@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nonet/protocol/effectors.h"
+#include "nonet/lab/trial/true_pose.h"
 #include "nonet/protocol/rounding.h"
+#include "nonet/sim/sensors/sensors.h"
 
 namespace nonet::lab {
 
@@ -14,130 +15,83 @@ using model::BodyId;
 
 constexpr double kStartHeight = 0.4;  // m, as after a beam (server facts 4.6)
 
-// Server axes (x right, y forward) to robot axes (x forward, y left).
-Vector3 toRobot(double x, double y, double z) {
-  return {y, -x, z};
-}
-
-std::optional<protocol::FootForce> forceOf(const sim::World& world, sim::RobotHandle robot, BodyId foot) {
-  const auto contact = world.footContact(robot, foot);
-  if (!contact) return std::nullopt;
-  const auto rounded = [](const sim::Vector3f& v) {
-    return toRobot(protocol::roundToWire(v.x()), protocol::roundToWire(v.y()), protocol::roundToWire(v.z()));
-  };
-  return protocol::FootForce{rounded(contact->center), rounded(contact->force)};
-}
-
 }  // namespace
 
 TrialSetup trialSetup(const agent::AgentConfig& config) {
-  TrialSetup setup;
-  setup.robotType = config.robotType;
-  setup.motion = config.parameters.motion;
-  setup.world = config.parameters.world;
-  setup.skillFolder = config.skillFolder;
-  return setup;
+  return {agent::robotConfig(config), {}};
 }
 
 struct RobotTrial::Implementation {
-  explicit Implementation(const TrialSetup& trialSetup)
-      : setup(trialSetup),
-        model(model::robotModel(setup.robotType)),
-        physics(setup.physics),
-        robot(physics.addRobot(setup.robotType)),
-        worldModel(model, setup.world, protocol::TeamName("Trial"), setup.seed),
-        motion(model, setup.motion, setup.skillFolder),
-        control(model, setup.motion.control),
-        random(setup.seed) {
+  explicit Implementation(const TrialSetup& setup)
+      : physics(setup.physics), handle(physics.addRobot(setup.robotType)), robot(setup), random(setup.seed) {
+    blind.vision = false;
     physics.setBallPosition({0.0F, -9.0F, 0.042F});
   }
 
   void sense() {
     percept.clear();
-    percept.time = protocol::roundToWire(static_cast<float>(physics.time()));
+    percept.time = protocol::roundToWire(serverTime);
     percept.game.playMode = protocol::PlayMode::PlayOn;
-    const auto degrees = [](float radians) {
-      return protocol::degreesFromWire(protocol::roundToWire(radians * static_cast<float>(180.0 / kPi)));
-    };
-    const sim::Vector3f gyro = physics.gyro(robot);
-    percept.gyro = toRobot(degrees(gyro.x()), degrees(gyro.y()), degrees(gyro.z()));
-    const sim::Vector3f a = physics.accelerometer(robot);
-    percept.accelerometer =
-        toRobot(protocol::roundToWire(a.x()), protocol::roundToWire(a.y()), protocol::roundToWire(a.z()));
-    for (const model::JointSpec& joint : model.joints()) {
-      const double angle =
-          protocol::degreesFromWire(protocol::roundToWire(physics.jointAngleDegrees(robot, joint.id)));
-      percept.joints[model::index(joint.id)] = angle;
-      percept.jointsPresent |= 1U << model::index(joint.id);
-    }
-    using protocol::ForceSensor;
-    const auto put = [&](ForceSensor sensor, BodyId body) {
-      if (model.has(body)) percept.forces[static_cast<std::size_t>(sensor)] = forceOf(physics, robot, body);
-    };
-    put(ForceSensor::RFoot, BodyId::RFoot);
-    put(ForceSensor::LFoot, BodyId::LFoot);
-    put(ForceSensor::RToe, BodyId::RToe);
-    put(ForceSensor::LToe, BodyId::LToe);
-    belief = &worldModel.update(percept);
+    sensors.fill(physics, handle, blind, noise, percept);
+    robot.sense(percept);
+    effectors.clear();
   }
 
   // The physics step that follows a message still runs with the commands in answer to the one before it.
   void advance() {
     protocol::roundAsWritten(effectors);
-    for (const model::JointSpec& joint : model.joints()) {
+    for (const model::JointSpec& joint : robot.model().joints()) {
       if (!underWay.hasSpeed(joint.id)) continue;
-      physics.setJointSpeed(robot, joint.id, static_cast<float>(underWay.speeds[model::index(joint.id)]));
+      physics.setJointSpeed(handle, joint.id, static_cast<float>(underWay.speeds[model::index(joint.id)]));
     }
     underWay = effectors;
     physics.prePhysics();
     physics.stepPhysics();
+    serverTime += static_cast<float>(kCycleTime);  // drifts as the server's clock does
   }
 
-  TrialSetup setup;
-  const model::RobotModel& model;
   sim::World physics;
-  sim::RobotHandle robot;
-  world::WorldModel worldModel;
-  motion::Motion motion;
-  motion::JointControl control;
+  sim::RobotHandle handle;
+  agent::Robot robot;
   Random random;
+  // Without vision the sensors use neither calibration nor noise.
+  sim::AgentSensors sensors{sim::Vector3f(sim::Vector3f::Zero())};
+  sim::SensorContext blind;
+  Random noise{0};
+  float serverTime = 0.0F;  // s
   protocol::Percept percept;
   protocol::Effectors effectors;
   protocol::Effectors underWay;
-  const world::WorldState* belief = nullptr;
-  world::WorldState nothing;
 };
 
-RobotTrial::RobotTrial(const TrialSetup& setup) : implementation_(std::make_unique<Implementation>(setup)) {
-  implementation_->belief = &implementation_->nothing;
-}
+RobotTrial::RobotTrial(const TrialSetup& setup) : implementation_(std::make_unique<Implementation>(setup)) {}
 RobotTrial::~RobotTrial() = default;
 
 void RobotTrial::place(const Pose2& X_FR) {
   Implementation& t = *implementation_;
-  const double lift = std::max(kStartHeight, t.model.standingHeight() + 0.015);
+  const double lift = std::max(kStartHeight, t.robot.model().standingHeight() + 0.015);
   const sim::Vector3f position(static_cast<float>(X_FR.translation.x()),
                                static_cast<float>(X_FR.translation.y()), static_cast<float>(lift));
-  t.physics.placeRobot(t.robot, position, static_cast<float>(toDegrees(X_FR.rotation) - 90.0));
-  t.worldModel.expectBeam(X_FR);
+  t.physics.placeRobot(t.handle, position, static_cast<float>(toDegrees(X_FR.rotation) - 90.0));
 }
 
 void RobotTrial::settle(const Pose2& X_FR) {
   Implementation& t = *implementation_;
   place(X_FR);
   run(motion::MotionRequest{}, 1.2);
-  const sim::Vector3f now = t.physics.bodyPosition(t.robot, BodyId::Torso);
-  t.physics.moveRobot(t.robot, sim::Vector3f(static_cast<float>(X_FR.translation.x()),
-                                             static_cast<float>(X_FR.translation.y()), now.z()));
+  const sim::Vector3f now = t.physics.bodyPosition(t.handle, BodyId::Torso);
+  t.physics.moveRobot(t.handle, sim::Vector3f(static_cast<float>(X_FR.translation.x()),
+                                              static_cast<float>(X_FR.translation.y()), now.z()));
   run(motion::MotionRequest{}, kCycleTime);  // the scene shows the move after the next step
 }
 
 void RobotTrial::step(const motion::MotionRequest& request, const motion::HeadRequest& head) {
   Implementation& t = *implementation_;
   t.sense();
-  const motion::JointTargets& targets = t.motion.update(*t.belief, request, head);
-  t.effectors.clear();
-  t.control.update(t.belief->body, targets, t.effectors);
+  team::Action action;
+  action.motion = request;
+  action.head = head;
+  t.robot.act(action, t.effectors);
   t.advance();
 }
 
@@ -149,41 +103,30 @@ void RobotTrial::run(const motion::MotionRequest& request, double seconds) {
 void RobotTrial::stepJoints(const motion::JointTargets& targets) {
   Implementation& t = *implementation_;
   t.sense();
-  t.effectors.clear();
-  t.control.update(t.belief->body, targets, t.effectors);
+  t.robot.follow(targets, t.effectors);
   t.advance();
 }
 
 void RobotTrial::stepSpeeds(const model::JointArray& speeds) {
   Implementation& t = *implementation_;
   t.sense();
-  t.effectors.clear();
-  for (const model::JointSpec& joint : t.model.joints()) {
+  for (const model::JointSpec& joint : t.robot.model().joints()) {
     t.effectors.setSpeed(joint.id, speeds[model::index(joint.id)]);
   }
   t.advance();
 }
 
 Pose2 RobotTrial::pose() const {
-  const Implementation& t = *implementation_;
-  const sim::ScenePose& torso = t.physics.bodyPose(t.robot, BodyId::Torso);
-  const sim::Vector3f forward = torso.rotation.col(1);
-  return {torso.position.x(), torso.position.y(), std::atan2(forward.y(), forward.x())};
+  return truePose(implementation_->physics, implementation_->handle);
 }
-
 Vector3 RobotTrial::torsoPosition() const {
-  const Implementation& t = *implementation_;
-  return t.physics.bodyPose(t.robot, BodyId::Torso).position.cast<double>();
+  return implementation_->physics.bodyPose(implementation_->handle, BodyId::Torso).position.cast<double>();
 }
-
 double RobotTrial::tilt() const {
-  const Implementation& t = *implementation_;
-  const double up = t.physics.bodyPose(t.robot, BodyId::Torso).rotation(2, 2);
-  return std::acos(std::clamp(up, -1.0, 1.0));
+  return trueTilt(implementation_->physics, implementation_->handle);
 }
-
 bool RobotTrial::down() const {
-  return torsoPosition().z() < 0.55 * implementation_->model.standingHeight();
+  return isDown(implementation_->physics, implementation_->handle);
 }
 
 double RobotTrial::time() const {
@@ -193,16 +136,19 @@ sim::World& RobotTrial::physics() {
   return implementation_->physics;
 }
 sim::RobotHandle RobotTrial::robot() const {
-  return implementation_->robot;
+  return implementation_->handle;
 }
 const world::WorldState& RobotTrial::belief() const {
-  return *implementation_->belief;
+  return implementation_->robot.world();
 }
-motion::Motion& RobotTrial::motion() {
-  return implementation_->motion;
+const motion::Motion& RobotTrial::motion() const {
+  return implementation_->robot.motion();
+}
+const protocol::Percept& RobotTrial::percept() const {
+  return implementation_->percept;
 }
 const model::RobotModel& RobotTrial::model() const {
-  return implementation_->model;
+  return implementation_->robot.model();
 }
 Random& RobotTrial::random() {
   return implementation_->random;

@@ -10,7 +10,7 @@
 #include <asio.hpp>
 #include <fmt/format.h>
 
-#include "nonet/lab/trial/trial_robot.h"
+#include "nonet/lab/trial/measured_robot.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/percept_text.h"
 
@@ -88,14 +88,10 @@ std::optional<TruePose> findTorso(std::string_view scene) {
   return TruePose{Pose2(m[12], m[13], std::atan2(m[5], m[4])), m[14]};
 }
 
-class ServerRobot final : public TrialRobot {
+class ServerRobot final : public MeasuredRobot {
  public:
   ServerRobot(const TrialSetup& setup, const ServerAddress& address)
-      : setup_(setup),
-        model_(model::robotModel(setup.robotType)),
-        worldModel_(model_, setup.world, protocol::TeamName("Trial"), setup.seed),
-        motion_(model_, setup.motion, setup.skillFolder),
-        control_(model_, setup.motion.control),
+      : robot_(setup),
         agent_(io_, address.host, address.port),
         monitor_(io_, address.host, address.monitorPort) {
     protocol::Effectors hello;
@@ -106,7 +102,7 @@ class ServerRobot final : public TrialRobot {
     protocol::Effectors init;
     init.init.emplace();
     init.init->unum = 2;
-    init.init->team.assign("Trial");
+    init.init->team.assign(setup.team);
     answer(init);
     constexpr int kPatience = 50;  // messages without team and number after which we were refused
     for (int i = 0; i < kPatience && !percept_.game.unum; ++i) {
@@ -122,8 +118,8 @@ class ServerRobot final : public TrialRobot {
   void settle(const Pose2& X_FR) override {
     constexpr double kWait = 1.5;  // s
     run({}, kWait);
-    for (int i = 0; i < 600 && belief_->body.posture != world::Posture::Upright; ++i) step({});
-    const double height = model_.standingHeight() + 0.02;
+    for (int i = 0; i < 600 && belief().body.posture != world::Posture::Upright; ++i) step({});
+    const double height = robot_.model().standingHeight() + 0.02;
     monitor_.send(fmt::format("(agent (team Left)(unum 2)(move {:.4f} {:.4f} {:.4f} {:.3f}))",
                               X_FR.translation.x(), X_FR.translation.y(), height,
                               toDegrees(X_FR.rotation) - 90.0));
@@ -132,8 +128,9 @@ class ServerRobot final : public TrialRobot {
 
   void step(const motion::MotionRequest& request) override {
     effectors_.clear();
-    const motion::JointTargets& targets = motion_.update(*belief_, request, {});
-    control_.update(belief_->body, targets, effectors_);
+    team::Action action;
+    action.motion = request;
+    robot_.act(action, effectors_);
     answer(effectors_);
     listen();
     monitor_.send("(reqfullstate)");
@@ -143,8 +140,8 @@ class ServerRobot final : public TrialRobot {
   }
 
   Pose2 pose() const override { return truth_.onGround; }
-  bool down() const override { return truth_.height < 0.55 * model_.standingHeight(); }
-  const world::WorldState& belief() const override { return *belief_; }
+  bool down() const override { return truth_.height < 0.55 * robot_.model().standingHeight(); }
+  const world::WorldState& belief() const override { return robot_.world(); }
 
  private:
   void answer(const protocol::Effectors& effectors) {
@@ -160,28 +157,23 @@ class ServerRobot final : public TrialRobot {
     while (const auto message = agent_.receive(wait)) {
       wait = false;
       protocol::parsePercept(*message, percept_);
-      belief_ = &worldModel_.update(percept_);
+      robot_.sense(percept_);
     }
   }
 
-  TrialSetup setup_;
-  const model::RobotModel& model_;
-  world::WorldModel worldModel_;
-  motion::Motion motion_;
-  motion::JointControl control_;
+  agent::Robot robot_;
   asio::io_context io_;
   Connection agent_;
   Connection monitor_;
   protocol::Percept percept_;
   protocol::Effectors effectors_;
   std::string text_;
-  const world::WorldState* belief_ = nullptr;
   TruePose truth_;
 };
 
 }  // namespace
 
-std::unique_ptr<TrialRobot> connectTrialRobot(const TrialSetup& setup, const ServerAddress& address) {
+std::unique_ptr<MeasuredRobot> connectMeasuredRobot(const TrialSetup& setup, const ServerAddress& address) {
   return std::make_unique<ServerRobot>(setup, address);
 }
 

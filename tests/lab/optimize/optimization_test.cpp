@@ -143,7 +143,7 @@ TEST_F(RunFolder, ImprovesAndItsProvenanceRepeats) {
   // Better than the start on seeds that neither has seen.
   agent::AgentParameters learned;
   config::overlayFile(learned, best);
-  const auto seeds = trialSeeds(77, 0, 0, 20);
+  const auto seeds = trialSeeds(77, 0, SeedStream::Candidates, 20);
   const Task& task = findTask("quadratic");
   EXPECT_GT(measure(task, learned, seeds, {}, 1).fitness,
             measure(task, agent::AgentParameters{}, seeds, {}, 1).fitness + 0.01);
@@ -192,7 +192,8 @@ TEST(Configuration, SurvivesItsFile) {
   Provenance origin;
   origin.task = "sprint";
   origin.fitness = 0.1;
-  origin.seeds = {1, 2, 4294967295U};
+  origin.seeds.add(4294967295U);
+  origin.seeds.add(SeedDraw{7, 5, 16});
   config.inherited.push_back(origin);
   const auto text = config.toJson().dump();
   EXPECT_EQ(OptimizationConfig::fromJson(nlohmann::json::parse(text)).toJson().dump(), text);
@@ -201,12 +202,50 @@ TEST(Configuration, SurvivesItsFile) {
 TEST(TrialSeeds, DifferBetweenGenerationsAndStreams) {
   std::set<std::uint64_t> all;
   for (int generation = 0; generation < 50; ++generation) {
-    for (int stream = 0; stream < 2; ++stream) {
+    for (const SeedStream stream : {SeedStream::Candidates, SeedStream::Validation}) {
       for (const std::uint64_t seed : trialSeeds(3, generation, stream, 10)) all.insert(seed);
     }
   }
   EXPECT_EQ(all.size(), 1000U);
-  EXPECT_EQ(trialSeeds(3, 7, 1, 10), trialSeeds(3, 7, 1, 10));
+  EXPECT_EQ(trialSeeds(3, 7, SeedStream::Validation, 10), trialSeeds(3, 7, SeedStream::Validation, 10));
+}
+
+// Files of before there were rules hold bare numbers; both may stand in one list.
+TEST(SeedList, IsWhatItsRulesDraw) {
+  SeedList list;
+  list.add(4294967295U);
+  list.add(SeedDraw{7, 5, 16});
+  list.add(SeedDraw{7, 10, 4});
+  std::vector<std::uint64_t> expected{4294967295U};
+  for (const auto& drawn :
+       {trialSeeds(7, 5, SeedStream::Validation, 16), trialSeeds(7, 10, SeedStream::Validation, 4)})
+    expected.insert(expected.end(), drawn.begin(), drawn.end());
+  EXPECT_EQ(list.all(), expected);
+  EXPECT_EQ(list.size(), 21U);
+  EXPECT_EQ(SeedList::fromJson(list.toJson()).all(), expected);
+  EXPECT_EQ(
+      list.toToml(),
+      "[4294967295, { seed = 7, generation = 5, count = 16 }, { seed = 7, generation = 10, count = 4 }]");
+}
+
+TEST(LearnedFile, OpensWithWhatWasReachedAndKeepsTheRuleOfItsSeeds) {
+  Provenance origin;
+  origin.task = "quadratic";
+  origin.fitness = -1.5;
+  origin.standardError = 0.25;
+  origin.date = "2026-11-22";
+  origin.seeds.add(SeedDraw{1, 0, 100});
+  const std::string text = learnedToml({}, {}, {"motion.walk.maxStep.x"}, {origin});
+  EXPECT_LT(text.find("quadratic"), text.find("[motion."));
+  EXPECT_LT(text.find("[motion."), text.find("[provenance.quadratic]"));
+  EXPECT_NE(text.find("seeds = [{ seed = 1, generation = 0, count = 100 }]"), std::string::npos);
+  const std::string path = testing::TempDir() + "/learned.toml";
+  writeAtomically(path, text);
+  const std::vector<Provenance> read = readProvenance(path);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].seeds.all(), trialSeeds(1, 0, SeedStream::Validation, 100));
+  agent::AgentParameters parameters;
+  EXPECT_NO_THROW(config::overlayFile(parameters, path));
 }
 
 // 1 - 6 sum d^2 / (n (n^2 - 1)), where there are no ties.

@@ -119,13 +119,5 @@ TEST(WalkReport, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(walkReportJson(measureWalk(settings)), one);
 }
 
-TEST(WalkReport, EstimatesMeanAndInterval) {
-  // 1..9: mean 5, standard deviation 2.7386, t(0.975, 8) = 2.306.
-  const Estimate e = estimate({1, 2, 3, 4, 5, 6, 7, 8, 9});
-  EXPECT_DOUBLE_EQ(e.mean, 5.0);
-  EXPECT_NEAR(e.ci95, 2.306 * 2.738613 / 3.0, 0.01);
-  EXPECT_EQ(estimate({}).mean, 0.0);
-}
-
 }  // namespace
 }  // namespace nonet::lab

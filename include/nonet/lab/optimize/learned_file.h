@@ -1,5 +1,5 @@
-// Parameter files that were learned: values, and in [provenance.<task>] where they come from, precisely
-// enough to measure the fitness again.
+// Parameter files that were learned: first a table of what was reached, then the values, and at the end, in
+// [provenance.<task>], where they come from, precisely enough to measure the fitness again.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "nonet/agent/parameters.h"
 #include "nonet/lab/optimize/evaluator.h"
+#include "nonet/lab/optimize/seed_list.h"
 #include "nonet/lab/tasks/task.h"
 
 namespace nonet::lab {
@@ -24,7 +25,7 @@ struct Provenance {
   std::int64_t budget = 0;  // simulated trials until then
   double fitness = 0.0;     // mean over `seeds`
   double standardError = 0.0;
-  std::vector<std::uint64_t> seeds;
+  SeedList seeds;
   std::string date;
   std::string version;
 

@@ -57,10 +57,6 @@ void setStart(OptimizationConfig& config, const std::string& dataFolder,
 RestartScheme restartSchemeOf(const std::string& name);
 std::string nameOf(RestartScheme scheme);
 
-/// The trial seeds of a generation: `stream` 0 for candidates, 1 for validation. 32 bits each, so that TOML
-/// and JSON readers of all languages take them.
-std::vector<std::uint64_t> trialSeeds(std::uint64_t runSeed, int generation, int stream, int count);
-
 /// Fitness (higher is better) of a point of the config's search space: what the evaluator's workers run, the
 /// same on every rank.
 Objective makeObjective(const OptimizationConfig& config, const std::string& dataFolder);

@@ -71,7 +71,7 @@ class OptimizationRun {
   // The best point so far, with all validations that it took part in.
   struct Incumbent {
     Eigen::VectorXd point;
-    std::vector<std::uint64_t> seeds;
+    SeedList seeds;
     std::vector<double> values;
     int generation = 0;  // that it comes from
     std::int64_t budget = 0;

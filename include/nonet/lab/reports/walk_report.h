@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "nonet/lab/common/statistics.h"
+#include "nonet/lab/trial/measured_robot.h"
 #include "nonet/lab/trial/target_course.h"
-#include "nonet/lab/trial/trial_robot.h"
 
 namespace nonet::lab {
 
@@ -26,13 +27,6 @@ struct WalkReportSettings {
   double headingNoise = 0.02;           // rad
   std::optional<ServerAddress> server;  // measure there, one walk after the other, instead of in process
 };
-
-/// Mean and half width of the 95 % confidence interval of the mean.
-struct Estimate {
-  double mean = 0.0;
-  double ci95 = 0.0;
-};
-Estimate estimate(const std::vector<double>& samples);
 
 struct WalkReport {
   Estimate forwardTenSeconds;                      // m/s over ten seconds from a stand, towards a far target

@@ -1,39 +1,27 @@
-// One robot alone on the field, in process: the real world model, motion and joint control on the exact
-// physics, driven by motion requests instead of a team. What walking, rising and kicking are measured and
-// trained with.
+// One robot alone on the field, in process: an agent's body (agent/robot.h) on the physics, driven by motion
+// requests instead of a team. What walking, rising and kicking are measured and trained with.
 //
-// It talks to the physics directly: senses are rounded as on the wire, commands act two messages later
-// (server facts 1.2, 1.5), there is no vision and no referee. Everything the robot's legs depend on is there;
-// what needs eyes belongs into a match.
+// Its senses are those of sim::Simulation, from the same code, but without vision and referee, which makes it
+// fast: commands act two messages later (server facts 1.2, 1.5). Everything that the legs depend on is there.
+// What needs eyes, a referee or other players is a GameTrial (game_trial.h).
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "nonet/agent/agent.h"
 #include "nonet/math/random.h"
-#include "nonet/motion/joint_control.h"
-#include "nonet/motion/motion.h"
-#include "nonet/motion/parameters.h"
 #include "nonet/sim/physics/world.h"
-#include "nonet/world/world_model.h"
 
 namespace nonet::lab {
 
-struct TrialSetup {
-  int robotType = 0;
-  motion::MotionParameters motion;
-  world::WorldParameters world;
-  std::string skillFolder;
-  std::uint64_t seed = 1;
+struct TrialSetup : agent::RobotConfig {
   sim::WorldSettings physics;
 };
 
-/// The body and mind of that agent.
+/// The body and mind of that agent, on the exact physics.
 TrialSetup trialSetup(const agent::AgentConfig& config);
 
 class RobotTrial {
@@ -60,7 +48,7 @@ class RobotTrial {
   Pose2 pose() const;             // torso on the ground, heading
   Vector3 torsoPosition() const;  // m
   double tilt() const;            // rad between torso and upright
-  /// Torso below half of the standing height: it lies or kneels.
+  /// Torso below 0.55 of the standing height: it lies or kneels.
   bool down() const;
   double time() const;  // s since construction
   sim::World& physics();
@@ -68,7 +56,9 @@ class RobotTrial {
 
   // -- belief
   const world::WorldState& belief() const;
-  motion::Motion& motion();
+  const motion::Motion& motion() const;
+  /// The message of the last cycle.
+  const protocol::Percept& percept() const;
   const model::RobotModel& model() const;
   Random& random();
 

@@ -1,10 +1,10 @@
-#include "nonet/lab/trial/trial_robot.h"
+#include "nonet/lab/trial/measured_robot.h"
 
 namespace nonet::lab {
 
 namespace {
 
-class InProcessRobot final : public TrialRobot {
+class InProcessRobot final : public MeasuredRobot {
  public:
   explicit InProcessRobot(const TrialSetup& setup) : trial_(setup) {}
   void settle(const Pose2& X_FR) override { trial_.settle(X_FR); }
@@ -19,7 +19,7 @@ class InProcessRobot final : public TrialRobot {
 
 }  // namespace
 
-std::unique_ptr<TrialRobot> makeTrialRobot(const TrialSetup& setup) {
+std::unique_ptr<MeasuredRobot> makeMeasuredRobot(const TrialSetup& setup) {
   return std::make_unique<InProcessRobot>(setup);
 }
 

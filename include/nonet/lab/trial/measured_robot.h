@@ -1,4 +1,5 @@
-// A robot that can be put somewhere and told how to walk, with its true pose: in process or on a server.
+// A robot whose walk is measured: it can be put somewhere and told how to walk, and its true pose is known;
+// in process or on a server.
 #pragma once
 
 #include <memory>
@@ -8,9 +9,9 @@
 
 namespace nonet::lab {
 
-class TrialRobot {
+class MeasuredRobot {
  public:
-  virtual ~TrialRobot() = default;
+  virtual ~MeasuredRobot() = default;
   /// Stands quietly at X_FR (roughly: a server moves robots to 0.01 m), whatever happened before.
   virtual void settle(const Pose2& X_FR) = 0;
   virtual void step(const motion::MotionRequest& request) = 0;
@@ -24,7 +25,7 @@ class TrialRobot {
 };
 
 /// On the in-process physics.
-std::unique_ptr<TrialRobot> makeTrialRobot(const TrialSetup& setup);
+std::unique_ptr<MeasuredRobot> makeMeasuredRobot(const TrialSetup& setup);
 
 struct ServerAddress {
   std::string host = "127.0.0.1";
@@ -35,6 +36,6 @@ struct ServerAddress {
 /// On any server, embedded or real, in lock-step or real time; the true pose comes from its monitor stream.
 /// The server must be otherwise empty. Throws std::runtime_error that names the address when it cannot be
 /// reached or refuses.
-std::unique_ptr<TrialRobot> connectTrialRobot(const TrialSetup& setup, const ServerAddress& address);
+std::unique_ptr<MeasuredRobot> connectMeasuredRobot(const TrialSetup& setup, const ServerAddress& address);
 
 }  // namespace nonet::lab

@@ -1,0 +1,214 @@
+#include "nonet/lab/trial/game_trial.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "nonet/agent/agent_setup.h"
+#include "nonet/lab/trial/true_pose.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr double kPreparation = 2.0;  // s from entering to the trial: beam, stand, one look about
+constexpr const char* kLeftName = "Nonet";
+constexpr const char* kRightName = "Guests";
+
+/// The same place as seen by that player's team, which knows itself on the left.
+Pose2 inOwnField(const GamePlayer& player) {
+  return player.rightTeam ? Pose2(0.0, 0.0, kPi) * player.X_WR : player.X_WR;
+}
+
+agent::AgentConfig configOf(const GamePlayer& player, int unum, std::uint64_t seed) {
+  agent::AgentConfig config = player.agent;
+  config.unum = unum;
+  config.team = player.rightTeam ? kRightName : kLeftName;
+  config.startPose = inOwnField(player);
+  config.seed = agent::agentSeed(seed, player.rightTeam, unum);
+  return config;
+}
+
+// A robot that has itself beamed to its place before the trial and does then what its mind wants.
+class Puppet {
+ public:
+  Puppet(const agent::AgentConfig& config, Mind mind)
+      : robot_(agent::robotConfig(config)), start_(*config.startPose), mind_(std::move(mind)) {}
+
+  const protocol::Effectors& step(const protocol::Percept& percept) {
+    const world::WorldState& world = robot_.sense(percept);
+    effectors_.clear();
+    robot_.act(decide(world), effectors_);
+    return effectors_;
+  }
+  const world::WorldState& world() const { return robot_.world(); }
+
+ private:
+  team::Action decide(const world::WorldState& world) {
+    if (world.game.phase != world::Phase::BeforeKickOff) return mind_(world, robot_.motion().state());
+    team::Action action;
+    if (!beamed_ && world.game.unum != 0) {
+      action.beam = start_;
+      beamed_ = true;
+    }
+    return action;
+  }
+
+  agent::Robot robot_;
+  protocol::Effectors effectors_;
+  Pose2 start_;
+  Mind mind_;
+  bool beamed_ = false;
+};
+
+struct Entry {
+  sim::AgentHandle handle = sim::kNoAgent;
+  sim::RobotHandle robot = sim::kNoRobot;
+  bool rightTeam = false;
+  int unum = 0;
+  std::variant<std::unique_ptr<agent::Agent>, std::unique_ptr<Puppet>> mind;
+};
+
+sim::Settings prepared(sim::Settings settings) {
+  settings.leftTeam = kLeftName;
+  settings.rightTeam = kRightName;
+  settings.beamNoiseXY = 0.0;
+  settings.beamNoiseAngle = 0.0;
+  settings.startAnyFieldPosition = true;
+  settings.automaticKickOff = false;
+  settings.waitBeforeKickOff = 2.0 * kPreparation;
+  return settings;
+}
+
+}  // namespace
+
+struct GameTrial::Implementation {
+  Implementation(const sim::Settings& settings, const GameSituation& situation, std::uint64_t seed)
+      : simulation(prepared(settings), seed) {
+    std::array<int, 2> numbers{};
+    for (const GamePlayer& player : situation.players) {
+      int& last = numbers[player.rightTeam ? 1 : 0];
+      last = player.agent.unum > 0 ? player.agent.unum : last + 1;
+      enter(player, configOf(player, last, seed));
+    }
+    simulation.step();
+    learnRobots();
+  }
+
+  void enter(const GamePlayer& player, const agent::AgentConfig& config) {
+    protocol::SceneEffector scene;
+    scene.robotType = config.robotType;
+    protocol::InitEffector init;
+    init.unum = config.unum;
+    init.team.assign(config.team);
+    Entry entry;
+    entry.handle = simulation.enter(scene, init);
+    entry.rightTeam = player.rightTeam;
+    entry.unum = config.unum;
+    if (player.mind) {
+      entry.mind = std::make_unique<Puppet>(config, player.mind);
+    } else {
+      entry.mind = std::make_unique<agent::Agent>(config);
+    }
+    entries.push_back(std::move(entry));
+  }
+
+  void learnRobots() {
+    for (const sim::AgentInfo& info : simulation.agents()) {
+      const auto entry = std::find_if(entries.begin(), entries.end(),
+                                      [&](const Entry& other) { return other.handle == info.handle; });
+      if (info.unum == 0) {
+        throw std::runtime_error(
+            fmt::format("the referee refuses number {} of the {} team, robot type {} (numbers 1 to 11, each "
+                        "once; at most "
+                        "7 of a type)",
+                        entry->unum, entry->rightTeam ? "right" : "left", info.robotType));
+      }
+      entry->robot = info.robot;
+    }
+  }
+
+  void step() {
+    for (Entry& entry : entries) {
+      const protocol::Percept* percept = simulation.sense(entry.handle);
+      if (percept == nullptr) continue;
+      std::visit([&](auto& mind) { simulation.act(entry.handle, mind->step(*percept)); }, entry.mind);
+    }
+    simulation.step();
+    ++cycles;
+  }
+
+  // From here on it counts.
+  void begin(const GameSituation& situation) {
+    const double radius = simulation.settings().ballRadius;
+    simulation.trainer(fmt::format("(ball (pos {} {} {})(vel {} {} 0))(playMode {})", situation.ball.x(),
+                                   situation.ball.y(), radius, situation.ballVelocity.x(),
+                                   situation.ballVelocity.y(), protocol::playModeName(situation.playMode)));
+    cycles = 0;
+    foulsBefore = simulation.fouls().size();
+  }
+
+  sim::Simulation simulation;
+  std::vector<Entry> entries;
+  long cycles = 0;
+  std::size_t foulsBefore = 0;
+};
+
+GameTrial::GameTrial(const sim::Settings& settings, const GameSituation& situation, std::uint64_t seed)
+    : implementation_(std::make_unique<Implementation>(settings, situation, seed)) {
+  run(kPreparation);
+  implementation_->begin(situation);
+}
+GameTrial::~GameTrial() = default;
+
+void GameTrial::step() {
+  implementation_->step();
+}
+
+void GameTrial::run(double seconds) {
+  const long cycles = std::lround(seconds / kCycleTime);
+  for (long i = 0; i < cycles; ++i) step();
+}
+
+double GameTrial::time() const {
+  return static_cast<double>(implementation_->cycles) * kCycleTime;
+}
+Pose2 GameTrial::pose(std::size_t player) const {
+  return truePose(simulation().world(), implementation_->entries.at(player).robot);
+}
+double GameTrial::tilt(std::size_t player) const {
+  return trueTilt(simulation().world(), implementation_->entries.at(player).robot);
+}
+bool GameTrial::down(std::size_t player) const {
+  return isDown(simulation().world(), implementation_->entries.at(player).robot);
+}
+Vector3 GameTrial::ball() const {
+  return simulation().world().ballPosition().cast<double>();
+}
+Vector3 GameTrial::ballVelocity() const {
+  return simulation().world().ballVelocity().cast<double>();
+}
+
+int GameTrial::fouls(std::size_t player, sim::FoulType type) const {
+  const Entry& entry = implementation_->entries.at(player);
+  const auto side = entry.rightTeam ? protocol::TeamSide::Right : protocol::TeamSide::Left;
+  const auto fouls = simulation().fouls().subspan(implementation_->foulsBefore);
+  return static_cast<int>(std::count_if(fouls.begin(), fouls.end(), [&](const sim::FoulRecord& foul) {
+    return foul.type == static_cast<int>(type) && foul.side == side && foul.unum == entry.unum;
+  }));
+}
+
+const sim::Simulation& GameTrial::simulation() const {
+  return implementation_->simulation;
+}
+const world::WorldState& GameTrial::belief(std::size_t player) const {
+  return std::visit([](const auto& mind) -> const world::WorldState& { return mind->world(); },
+                    implementation_->entries.at(player).mind);
+}
+
+}  // namespace nonet::lab
