@@ -99,6 +99,7 @@ struct Server::Implementation {
   asio::io_context io;
   asio::executor_work_guard<asio::io_context::executor_type> work;
   tcp::acceptor agentAcceptor;
+  Admission admission;
   Monitors monitors;
   asio::signal_set signals;
   std::vector<std::unique_ptr<AgentLink>> agents;
@@ -119,7 +120,8 @@ Server::Implementation::Implementation(const Settings& settings, std::uint64_t s
       simulation(settings, s),
       work(asio::make_work_guard(io)),
       agentAcceptor(listenOn(io, o.address, o.agentPort, "agents")),
-      monitors(io, simulation, o.address, o.monitorPort),
+      admission(o.mostConnections, o.mostPerAddress),
+      monitors(io, simulation, o.address, o.monitorPort, Admission(o.mostConnections, o.mostPerAddress)),
       signals(io),
       lobbyOpen(o.players > 0) {
   if (!o.monitorLog.empty()) log.emplace(simulation, o.monitorLog);
@@ -141,6 +143,11 @@ void Server::Implementation::acceptAgents() {
     if (!error) {
       auto link = std::make_unique<AgentLink>();
       link->connection = std::make_shared<Connection>(std::move(socket));
+      if (!admission.admits(agents, *link->connection, "agent")) {
+        link->connection->close();
+        ++statistics.refused;
+        return acceptAgents();
+      }
       AgentLink& added = *link;
       agents.push_back(std::move(link));
       ++statistics.accepted;
