@@ -75,7 +75,7 @@ TEST_F(Data, EmptyFoldersAreRefused) {
     EXPECT_EQ(program.wait(), 1) << program.output();
     EXPECT_THAT(program.output(), HasSubstr("there are no skills"));
   }
-  fs::copy(std::string(NONET_SOURCE_DIR) + "/skills", empty / "skills", fs::copy_options::recursive);
+  fs::copy(NONET_SOURCE_DIR "/skills", empty / "skills", fs::copy_options::recursive);
   Program program({"play", "--type", "3", "--data", empty, "--wait", "0.1"}, folder.file("out.txt"));
   EXPECT_EQ(program.wait(), 1) << program.output();
   EXPECT_THAT(program.output(), HasSubstr("type3.toml: is missing"));

@@ -127,7 +127,7 @@ TEST_F(Optimize, ASignalEndsItWithWhatIsLearned) {
 // Every task that can be chosen has a word in the documentation.
 TEST_F(Optimize, TasksAreDocumented) {
   std::string documents;
-  for (const auto& entry : fs::recursive_directory_iterator(std::string(NONET_SOURCE_DIR) + "/docs")) {
+  for (const auto& entry : fs::recursive_directory_iterator(NONET_SOURCE_DIR "/docs")) {
     std::ifstream file(entry.path());
     if (entry.path().extension() == ".md") documents.append(std::istreambuf_iterator<char>(file), {});
   }

@@ -142,7 +142,7 @@ TEST(CommandLine, EveryCommandIsInTheReadme) {
   const TestFolder folder("nonet_commands");
   Program help({"--help"}, folder.file("help.txt"));
   EXPECT_EQ(help.wait(), 0);
-  std::ifstream file(std::string(NONET_SOURCE_DIR) + "/README.md");
+  std::ifstream file(NONET_SOURCE_DIR "/README.md");
   const std::string readme{std::istreambuf_iterator<char>(file), {}};
   const std::string text = help.output();
   const std::string list = text.substr(text.find("Subcommands:"));

@@ -30,7 +30,7 @@ class SkillCommand : public testing::Test {
 };
 
 TEST_F(SkillCommand, OurOwnSkillsHaveNoErrors) {
-  const auto [code, output] = check({std::string(NONET_SOURCE_DIR) + "/skills"});
+  const auto [code, output] = check({NONET_SOURCE_DIR "/skills"});
   EXPECT_EQ(code, 0) << output;
 }
 
