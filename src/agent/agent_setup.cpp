@@ -5,13 +5,29 @@
 
 #include <nlohmann/json.hpp>
 
+#include "nonet/config/assignment.h"
 #include "nonet/config/parameters.h"
 #include "nonet/math/random.h"
+#include "nonet/motion/skill_library.h"
 
 namespace nonet::agent {
 namespace {
 
 constexpr std::string_view kStartMark = "start ";  // x, y in m, heading in rad, own field frame
+
+// Without its data an agent would play on, crippled: without kicks and rises, at half the speed.
+std::string skillFolderIn(const std::string& dataFolder) {
+  const std::string folder = dataFolder + "/skills";
+  if (!motion::skillFiles(folder).empty()) return folder;
+  throw config::ParameterError(folder + ": there are no skills (*.skl): is this the folder of Nonet's data?");
+}
+
+std::string learnedFileIn(const std::string& dataFolder, int robotType) {
+  const std::string file = dataFolder + "/params/type" + std::to_string(robotType) + ".toml";
+  if (std::filesystem::exists(file)) return file;
+  throw config::ParameterError(file + ": is missing: it holds the learned values of robot type " +
+                               std::to_string(robotType));
+}
 
 }  // namespace
 
@@ -21,12 +37,14 @@ AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFo
   config.team = choice.team;
   config.robotType = choice.robotType;
   config.seed = choice.seed;
-  config.skillFolder = dataFolder + "/skills";
+  config.skillFolder = skillFolderIn(dataFolder);
   config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
   config.startPose = choice.startPose;
-  const std::string typeFile = dataFolder + "/params/type" + std::to_string(choice.robotType) + ".toml";
-  if (choice.learned && std::filesystem::exists(typeFile)) config::overlayFile(config.parameters, typeFile);
+  if (choice.learned) {
+    config::overlayFile(config.parameters, learnedFileIn(dataFolder, choice.robotType));
+  }
   for (const std::string& file : choice.parameterFiles) config::overlayFile(config.parameters, file);
+  for (const std::string& text : choice.assignments) config::assignParameter(config.parameters, text);
   return config;
 }
 
@@ -41,15 +59,20 @@ protocol::LogHeader logHeader(const AgentConfig& config, const std::string& vers
   return header;
 }
 
-AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder) {
+AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder,
+                         const std::string& path) {
+  if (header.robotType < 0 || header.robotType > 4 || header.unum < 0 || header.unum > 11) {
+    throw protocol::LogError(path + ": the header makes no sense: robot type " +
+                             std::to_string(header.robotType) + ", number " + std::to_string(header.unum));
+  }
   AgentConfig config;
   config.unum = header.unum;
   config.team = header.team;
   config.robotType = header.robotType;
   config.seed = header.seed;
-  config.skillFolder = dataFolder + "/skills";
+  config.skillFolder = skillFolderIn(dataFolder);
   config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
-  config::overlayText(config.parameters, header.parameters, "header of the log");
+  config::overlayText(config.parameters, header.parameters, path + ": parameters in the header");
   return config;
 }
 

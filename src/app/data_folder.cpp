@@ -2,10 +2,28 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace nonet::app {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool holdsData(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder / "params", ignored) && fs::is_directory(folder / "skills", ignored);
+}
+
+std::string checked(const std::string& folder, const std::string& origin) {
+  if (holdsData(folder)) return folder;
+  throw std::runtime_error(
+      fmt::format("{} {}: there is no params/ and skills/: give the folder that holds both", origin, folder));
+}
+
+}  // namespace
 
 std::string executablePath() {
   std::error_code error;
@@ -13,16 +31,24 @@ std::string executablePath() {
   return error ? std::string() : path.string();
 }
 
-std::string dataFolder() {
-  if (const char* given = std::getenv("NONET_DATA")) return given;  // NOLINT(concurrency-mt-unsafe)
-  std::error_code error;
-  for (fs::path folder = fs::path(executablePath()).parent_path(); folder.has_relative_path();
-       folder = folder.parent_path()) {
-    if (fs::is_directory(folder / "skills", error)) {
-      return folder.string();
-    }
+std::string findData(const std::string& executable, const std::string& sourceFolder) {
+  for (fs::path folder = fs::path(executable).parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    if (holdsData(folder)) return folder.string();
+    if (holdsData(folder / "share" / "nonet")) return (folder / "share" / "nonet").string();
+    if (!folder.has_relative_path()) break;
   }
-  return NONET_SOURCE_DIR;
+  if (holdsData(sourceFolder)) return sourceFolder;
+  throw std::runtime_error(fmt::format(
+      "params/ and skills/ are missing: they are not above {}, nor in share/nonet there; set NONET_DATA "
+      "or --data to the folder that holds both",
+      executable));
+}
+
+std::string dataFolder(const std::string& given) {
+  if (!given.empty()) return checked(given, "--data");
+  const char* set = std::getenv("NONET_DATA");  // NOLINT(concurrency-mt-unsafe)
+  if (set != nullptr && *set != '\0') return checked(set, "NONET_DATA");
+  return findData(executablePath(), NONET_SOURCE_DIR);
 }
 
 }  // namespace nonet::app

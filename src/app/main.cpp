@@ -1,14 +1,33 @@
 #include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "nonet/app/commands.h"
+#include "nonet/app/version.h"
+#include "nonet/config/nearest.h"
 
 namespace {
+
+// Every wrong command line ends with this, whatever was wrong with it.
+constexpr int kWrongUse = 1;
+
+void checkCommand(const CLI::App& app, const std::string& given) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  for (const std::string& name : names) {
+    if (name == given) return;
+  }
+  throw std::runtime_error("there is no command '" + given + "': did you mean '" +
+                           nonet::config::nearestOf(names, given) + "'? nonet --help lists all");
+}
 
 int run(int argc, char** argv) {
   CLI::App app{"Nonet: a RoboCup 3D soccer agent, its embedded server and its laboratory"};
   app.require_subcommand(1);
+  app.set_version_flag("--version", nonet::app::versionText());
   int exitCode = 0;
   nonet::app::addPlayCommand(app, exitCode);
   nonet::app::addServeCommand(app, exitCode);
@@ -23,7 +42,13 @@ int run(int argc, char** argv) {
   nonet::app::addWalkReportCommand(app, exitCode);
   nonet::app::addRiseReportCommand(app, exitCode);
   nonet::app::addKickReportCommand(app, exitCode);
-  CLI11_PARSE(app, argc, argv);
+  nonet::app::addParamsCommand(app, exitCode);
+  if (argc > 1 && argv[1][0] != '-') checkCommand(app, argv[1]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongUse;
+  }
   return exitCode;
 }
 

@@ -1,13 +1,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/stop_signal.h"
 #include "nonet/app/tcp_match.h"
+#include "nonet/app/team_name.h"
 #include "nonet/lab/reports/match_localization.h"
 
 namespace nonet::app {
@@ -23,6 +27,7 @@ struct MatchArguments {
   std::string json = "logs/match.json";
   std::vector<std::string> settingFiles;
   std::vector<std::string> assignments;
+  std::string data;
 };
 
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
@@ -32,18 +37,54 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
   const int threads = arguments.threads > 0 ? arguments.threads : cores;
   console.say(fmt::format("{}, seed {}, in one process with {} threads", lab::matchTitle(match), match.seed,
                           threads));
+  const StopSignal stopSignal;
   lab::MatchObservers observers;
   observers.afterCycle = [&](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
     if (console.due()) console.progress(watcher.progress(simulation));
     if (arguments.localization) localization.afterCycle(simulation);
-    return true;
+    return !StopSignal::came();
   };
   if (arguments.localization) {
     observers.afterThought = [&](const lab::Thought& thought) { localization.afterThought(thought); };
   }
-  lab::MatchResult result = lab::playInProcess(match, dataFolder(), threads, observers);
+  lab::MatchResult result = lab::playInProcess(match, dataFolder(arguments.data), threads, observers);
   console.end();
+  if (!result.finished) console.say("stopped by a signal");
   return result;
+}
+
+/// Names of parameters have a dot, those of the server's settings have none.
+void assign(const std::vector<std::string>& assignments, lab::MatchChoice& match) {
+  for (const std::string& assignment : assignments) {
+    if (assignment.substr(0, assignment.find('=')).find('.') == std::string::npos) {
+      match.settings.setAssignment(assignment);
+      continue;
+    }
+    match.left.assignments.push_back(assignment);
+    match.right.assignments.push_back(assignment);
+  }
+}
+
+/// What would go wrong only after the match, or in every agent alone.
+void checkBefore(MatchArguments& arguments) {
+  lab::MatchChoice& match = arguments.options.match;
+  if (match.left.name == match.right.name)
+    throw std::runtime_error("--left and --right must be different names");
+  for (const std::string& name : {match.left.name, match.right.name}) checkTeamName(name);
+  for (lab::TeamChoice* team : {&match.left, &match.right}) {
+    if (team->dataFolder.empty()) team->dataFolder = arguments.data;
+    const std::string data = dataFolder(team->dataFolder);
+    std::set<int> types;
+    for (int unum = 1; unum <= team->players; ++unum) {
+      const agent::AgentChoice choice = lab::agentChoice(match, team == &match.right, unum);
+      if (types.insert(choice.robotType).second) (void)agent::makeAgentConfig(choice, data);
+    }
+  }
+  const std::filesystem::path folder = std::filesystem::path(arguments.json).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  if (!std::ofstream(arguments.json, std::ios::app))
+    throw std::runtime_error(
+        fmt::format("--json {}: cannot be written: give the name of a file", arguments.json));
 }
 
 int runMatch(MatchArguments& arguments) {
@@ -51,9 +92,8 @@ int runMatch(MatchArguments& arguments) {
   match.left.players = arguments.players;
   match.right.players = arguments.alone ? 0 : arguments.players;
   for (const std::string& file : arguments.settingFiles) match.settings.overlayFile(file);
-  for (const std::string& assignment : arguments.assignments) match.settings.setAssignment(assignment);
-  if (match.left.name == match.right.name)
-    throw std::runtime_error("--left and --right must be different names");
+  assign(arguments.assignments, match);
+  checkBefore(arguments);
 
   Console console;
   lab::MatchLocalization localization;
@@ -61,8 +101,6 @@ int runMatch(MatchArguments& arguments) {
                                                       : playOverTcp(arguments.options, console);
   fmt::print("{}", result.toText());
   if (arguments.localization) fmt::print("{}", localization.toText());
-  const std::filesystem::path folder = std::filesystem::path(arguments.json).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder);
   std::ofstream file(arguments.json);
   nlohmann::ordered_json json = result.toJson();
   if (arguments.localization) json["localization"] = localization.toJson();
@@ -115,7 +153,20 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str();
   command->add_option("--settings", arguments->settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
-  command->add_option("--set", arguments->assignments, "Settings of the server, Name=Value");
+  command
+      ->add_option("--set", arguments->assignments,
+                   "One value, name=value: a setting of the server (RuleHalfTime=60), or with a dot a "
+                   "parameter of all "
+                   "agents (team.ball.kick=false)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--left-set", match.left.assignments,
+                   "One parameter of the left team's agents, name=value")
+      ->allow_extra_args(false);
+  command->add_option("--right-set", match.right.assignments, "The same of the right team's")
+      ->allow_extra_args(false);
+  command->add_option("--data", arguments->data, "Folder with params/ and skills/ for both teams")
+      ->check(CLI::ExistingDirectory);
   command->add_flag("--check", match.check,
                     "Look in every cycle whether the physics holds: finite, within stops, above the ground");
   CLI::Option* inProcess = command

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -14,7 +15,9 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/app/commands.h"
+#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/stop_signal.h"
 #include "nonet/config/parameters.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/optimize/evaluator_mpi.h"
@@ -41,6 +44,9 @@ struct OptimizeArguments {
   std::string accept;
   int compareSolvers = 0;
   std::string reportFolder;
+  const CLI::App* command = nullptr;
+
+  bool wasGiven(const std::string& option) const { return command->count(option) > 0; }
 };
 
 int threadsOf(const OptimizeArguments& arguments) {
@@ -77,8 +83,17 @@ void printMeasurement(const lab::Measurement& measurement) {
   fmt::print("\n");
 }
 
+lab::MeasureProgress showTrials(Console& console) {
+  return [&console](const std::string& task, std::size_t done, std::size_t all) {
+    console.progress(fmt::format("{}: {} of {} trials", task, done, all));
+  };
+}
+
 int repeatFile(const OptimizeArguments& arguments) {
-  const auto repetitions = lab::repeatLearned(arguments.repeat, dataFolder(), threadsOf(arguments));
+  Console console;
+  const auto repetitions =
+      lab::repeatLearned(arguments.repeat, dataFolder(), threadsOf(arguments), showTrials(console));
+  console.end();
   if (repetitions.empty()) {
     fmt::print(stderr, "nonet optimize: {} has no [provenance.<task>] table\n", arguments.repeat);
     return 2;
@@ -95,8 +110,28 @@ int repeatFile(const OptimizeArguments& arguments) {
   return exitCode;
 }
 
+/// The robot type that the file was learned for, unless it does not say; then the one given.
+int acceptedType(const OptimizeArguments& arguments, const std::vector<lab::Provenance>& origins) {
+  const int given = arguments.config.robotType;
+  if (origins.empty()) return given;
+  const int learned = origins.front().robotType;
+  const bool agree = std::all_of(origins.begin(), origins.end(), [learned](const lab::Provenance& origin) {
+    return origin.robotType == learned;
+  });
+  if (!agree) return given;
+  if (arguments.wasGiven("--type") && given != learned) {
+    throw std::runtime_error(fmt::format("{}: was learned for robot type {}, not for --type {}",
+                                         arguments.accept, learned, given));
+  }
+  return learned;
+}
+
 // Measures a set on fresh seeds and writes it with that fitness as its provenance.
 int acceptFile(OptimizeArguments& arguments) {
+  if (arguments.out.empty()) {
+    fmt::print(stderr, "nonet optimize: --out FILE says where the accepted set goes\n");
+    return 2;
+  }
   lab::OptimizationConfig& config = arguments.config;
   const lab::Task& task = lab::findTask(arguments.task);
   agent::AgentParameters parameters = lab::defaultParameters(dataFolder());
@@ -107,6 +142,7 @@ int acceptFile(OptimizeArguments& arguments) {
   for (const lab::Provenance& known : origins) {
     if (known.task == arguments.task) origin = known;
   }
+  config.robotType = acceptedType(arguments, origins);
   origin.task = arguments.task;
   origin.robotType = config.robotType;
   origin.quickSolver = config.quickSolver;
@@ -114,17 +150,18 @@ int acceptFile(OptimizeArguments& arguments) {
   origin.seeds.add(lab::SeedDraw{config.seed, 0, config.trials});
   origin.date = today();
   origin.version = NONET_VERSION;
-  const lab::Measurement measurement = lab::measure(task, parameters, origin.seeds.all(),
-                                                    config.taskSettings(dataFolder()), threadsOf(arguments));
+  Console console;
+  const lab::Measurement measurement =
+      lab::measure(task, parameters, origin.seeds.all(), config.taskSettings(dataFolder()), threadsOf(arguments),
+                   showTrials(console));
+  console.end();
   printMeasurement(measurement);
   origin.fitness = measurement.fitness;
   origin.standardError = measurement.standardError;
   lab::replaceProvenance(origins, origin);
-  if (!arguments.out.empty()) {
-    const lab::SearchSpace space(parameters, config.keys.empty() ? task.searchedKeys() : config.keys);
-    lab::writeAtomically(arguments.out, lab::learnedToml(parameters, lab::defaultParameters(dataFolder()),
-                                                         space.keys(), origins));
-  }
+  const lab::SearchSpace space(parameters, config.keys.empty() ? task.searchedKeys() : config.keys);
+  lab::writeAtomically(arguments.out, lab::learnedToml(parameters, lab::defaultParameters(dataFolder()),
+                                                       space.keys(), origins));
   return 0;
 }
 
@@ -162,16 +199,59 @@ class Progress {
   std::int64_t lastTrials_ = 0;
 };
 
-void optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::string& folder) {
+/// Exit code. A signal ends the search after the generation that it came in: all is in the folder.
+int optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::string& folder) {
+  const StopSignal stopSignal;
   Progress progress(folder, run.config().generations);
   progress.startFrom(run.trials());
   lab::GenerationReport report;
-  while (run.step(evaluator, report)) progress.show(report, evaluator.workers());
+  while (!StopSignal::came() && run.step(evaluator, report)) progress.show(report, evaluator.workers());
+  const bool stopped = StopSignal::came();
+  if (stopped) fmt::print("stopped by a signal after generation {}; --resume goes on\n", run.generation());
   fmt::print("best parameters: {}/best.toml\n", folder);
+  return stopped ? 1 : 0;
+}
+
+/// The options that a run keeps, by their names in its config.json.
+constexpr std::array<std::pair<const char*, const char*>, 11> kKept{
+    {{"--type", "robotType"},
+     {"--population", "population"},
+     {"--sigma", "sigma"},
+     {"--trials", "trials"},
+     {"--validation-every", "validationEvery"},
+     {"--validation-trials", "validationTrials"},
+     {"--quick", "quickSolver"},
+     {"--racing", "racing"},
+     {"--restarts", "restarts"},
+     {"--keys", "keys"},
+     {"--seed", "seed"}}};
+
+/// A run goes on as it began: whoever says otherwise means another run. Throws std::runtime_error.
+void checkAgainst(const OptimizeArguments& arguments, const lab::OptimizationConfig& begun) {
+  const auto contradiction = [&](const std::string& what, const std::string& given, const std::string& kept) {
+    return std::runtime_error(
+        fmt::format("--resume: the run in {} was begun with {} {}, not {}: leave it out, or "
+                    "start another run",
+                    arguments.out, what, kept, given));
+  };
+  if (!arguments.task.empty() && arguments.task != begun.task)
+    throw contradiction("task", arguments.task, begun.task);
+  lab::OptimizationConfig given = arguments.config;
+  given.restarts = lab::restartSchemeOf(arguments.restarts);
+  const nlohmann::json now = given.toJson();
+  const nlohmann::json then = begun.toJson();
+  for (const auto& [option, key] : kKept) {
+    if (arguments.wasGiven(option) && now.at(key) != then.at(key))
+      throw contradiction(option, now.at(key).dump(), then.at(key).dump());
+  }
+  if (arguments.wasGiven("--params"))
+    throw std::runtime_error(
+        "--resume: a run keeps the parameters that it was begun with: leave out --params");
 }
 
 lab::OptimizationRun openRun(OptimizeArguments& arguments, bool generationsGiven) {
   if (arguments.resume) {
+    checkAgainst(arguments, lab::OptimizationRun::readConfig(arguments.out));
     return lab::OptimizationRun::resume(
         arguments.out, dataFolder(),
         generationsGiven ? std::optional<int>(arguments.config.generations) : std::nullopt);
@@ -204,16 +284,14 @@ int runMpi(OptimizeArguments& arguments, bool generationsGiven) {
   }
   job.share(run->config().toJson().dump());
   const auto evaluator = lab::makeMpiEvaluator(job, lab::makeObjective(run->config(), dataFolder()));
-  optimize(*run, *evaluator, arguments.out);
-  return 0;
+  return optimize(*run, *evaluator, arguments.out);
 }
 
 int runThreads(OptimizeArguments& arguments, bool generationsGiven) {
   lab::OptimizationRun run = openRun(arguments, generationsGiven);
   const auto evaluator =
       lab::makeThreadEvaluator(lab::makeObjective(run.config(), dataFolder()), threadsOf(arguments));
-  optimize(run, *evaluator, arguments.out);
-  return 0;
+  return optimize(run, *evaluator, arguments.out);
 }
 
 int compareSolvers(OptimizeArguments& arguments) {
@@ -283,7 +361,9 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
       command->add_option("--generations", arguments->config.generations, "How many; extends with --resume")
           ->capture_default_str();
   addSearchOptions(*command, *arguments);
-  command->add_option("--threads", arguments->threads, "Evaluations at once; 0: one per core");
+  arguments->command = command;
+  command->add_option("--threads", arguments->threads, "Evaluations at once; 0: one per core")
+      ->check(CLI::Range(0, 256));
   command->add_flag("--mpi", arguments->mpi, "Evaluate on all ranks of this MPI job (under mpirun or srun)");
   command->add_flag("--resume", arguments->resume, "Continue the run in --out after a kill at any point");
   command->add_flag("--list", arguments->list, "Show tasks and parameters");

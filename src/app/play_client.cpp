@@ -1,16 +1,21 @@
 #include "nonet/app/play_client.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <fstream>
+#include <memory>
 #include <span>
+#include <stdexcept>
 
 #include <asio.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/alarm.h"
 #include "nonet/app/turn.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/log_file.h"
@@ -44,14 +49,15 @@ constexpr std::size_t kReadSize = 65536;  // bytes
 class PlayClient {
  public:
   explicit PlayClient(const PlayOptions& options)
-      : options_(options),
-        session_(options.session),
-        turn_(options.host, options.port),
-        signals_(io_, SIGINT, SIGTERM) {
+      : options_(options), turn_(options.host, options.port), signals_(io_, SIGINT, SIGTERM) {
     if (!options.record.empty()) {
       log_ = std::make_unique<protocol::LogWriter>(options.record, options.recordHeader);
       if (options.session.agent.startPose)
         log_->comment(agent::startComment(*options.session.agent.startPose));
+    }
+    if (!options.report.empty()) {
+      report_.open(options.report);
+      if (!report_) throw std::runtime_error(cannotWriteReport());
     }
   }
 
@@ -64,198 +70,214 @@ class PlayClient {
     io_.run();
     if (log_) {
       log_->close();
-      if (log_->failed()) fmt::print(stderr, "nonet play: {}\n", log_->error());
+      watchLog();
     }
     report();
     return exit_;
   }
 
  private:
-  using Timer = asio::steady_timer;
+  /// One connection with all that belongs to it. Its handlers hold it, and do nothing once there is a newer
+  /// one.
+  struct Connection {
+    Connection(asio::io_context& io, const agent::SessionOptions& options)
+        : socket(io), silence(io), session(options) {}
 
-  template <class Action>
-  void after(Timer& timer, double seconds, Action action) {
-    timer.expires_after(std::chrono::duration_cast<Clock::duration>(Seconds(seconds)));
-    timer.async_wait([this, action](std::error_code error) {
-      if (!error && !finished_) action();
-    });
-  }
+    tcp::socket socket;
+    Alarm silence;
+    agent::Session session;  // with its agent: on a new connection the robot has to introduce itself again
+    protocol::FrameReader frames;
+    std::string outbox;  // frames not yet taken by the socket
+    Clock::time_point greeted;
+    bool accepted = false;
+  };
+  using Link = std::shared_ptr<Connection>;
+
+  bool isOver(const Link& link) const { return finished_ || link != link_; }
+
+  double waited() const { return Seconds(Clock::now() - started_).count(); }
 
   // -- connecting
 
   void awaitTurn() {
     const double patience = kTurnPatience + kTurnPatiencePerUnum * options_.session.agent.unum;
-    if (options_.atOnce || turn_.take() || Seconds(Clock::now() - started_).count() > patience) {
+    if (options_.atOnce || turn_.take() || waited() > patience) {
       started_ = Clock::now();  // waiting for the others does not count as waiting for the server
+      deadline_.set(options_.wait, [this] { giveUp(); });
       connect();
     } else {
-      after(pauseTimer_, kTurnInterval, [this] { awaitTurn(); });
+      pause_.set(kTurnInterval, [this] { awaitTurn(); });
     }
   }
 
   void connect() {
-    std::error_code error;
-    const auto endpoints = resolver_.resolve(options_.host, std::to_string(options_.port), error);
-    if (error) {
-      retry(error);
-      return;
+    if (link_) {
+      std::error_code ignored;
+      link_->silence.cancel();
+      link_->socket.close(ignored);
     }
-    asio::async_connect(socket_, endpoints, [this](std::error_code failure, const tcp::endpoint&) {
-      if (finished_) return;
-      if (failure) {
-        retry(failure);
-      } else {
-        greet();
-      }
-    });
+    link_ = std::make_shared<Connection>(io_, options_.session);
+    resolver_.async_resolve(
+        options_.host, std::to_string(options_.port),
+        [this, link = link_](std::error_code error, const tcp::resolver::results_type& endpoints) {
+          if (isOver(link)) return;
+          if (error) return retry(error);
+          asio::async_connect(link->socket, endpoints, [this, link](std::error_code failure, const auto&) {
+            if (isOver(link)) return;
+            if (failure) return retry(failure);
+            greet(link);
+          });
+        });
   }
 
   void retry(std::error_code error) {
-    const double waited = Seconds(Clock::now() - started_).count();
-    if (waited + pause_ > options_.wait) {
-      finish(PlayExit::NoServer,
-             fmt::format("no server at {}:{} after {:.1f} s ({}): start it, or check --host and --port",
-                         options_.host, options_.port, waited, error.message()));
-      return;
-    }
-    say("waiting for a server at {}:{} ({}), next try in {:.1f} s", options_.host, options_.port,
-        error.message(), pause_);
-    after(pauseTimer_, pause_, [this] { connect(); });
-    pause_ = std::min(pause_ * 1.5, kLongestPause);
+    trouble_ = error.message();
+    const double pause = std::clamp(options_.wait - waited(), 0.0, nextPause_);
+    say("waiting for a server at {}:{} ({}), next try in {:.1f} s", options_.host, options_.port, trouble_,
+        pause);
+    pause_.set(pause, [this] { connect(); });
+    nextPause_ = std::min(nextPause_ * 1.5, kLongestPause);
   }
 
-  void greet() {
-    socket_.set_option(tcp::no_delay(true));
-    socket_.non_blocking(true);
-    frames_.reset();
-    send(session_.begin());
-    read();
-    watchSilence();
+  void giveUp() {
+    const std::string tried = fmt::format("at {}:{} after {:.1f} s", options_.host, options_.port, waited());
+    const bool silent = link_ && link_->greeted != Clock::time_point();
+    finish(PlayExit::NoServer,
+           silent
+               ? fmt::format("no message from the server {}: is it a server for agents? Check --port", tried)
+               : fmt::format("no server {} ({}): start it, or check --host and --port", tried, trouble_));
   }
 
-  void watchSilence() {
-    if (!options_.rescue) return;
-    greeted_ = Clock::now();
-    after(silenceTimer_, kSilenceBeforeSyn, [this] { breakSilence(); });
+  void greet(const Link& link) {
+    link->socket.set_option(tcp::no_delay(true));
+    link->socket.non_blocking(true);
+    link->greeted = Clock::now();
+    send(link, link->session.begin());
+    read(link);
+    if (options_.rescue) link->silence.set(kSilenceBeforeSyn, [this] { breakSilence(); });
   }
 
   void breakSilence() {
-    if (Seconds(Clock::now() - greeted_).count() > reconnectAfter_) {
-      reconnect();
+    if (finished_) return;
+    if (Seconds(Clock::now() - link_->greeted).count() > reconnectAfter_) {
+      say("no message in {:.1f} s, connecting anew", reconnectAfter_);
+      reconnectAfter_ *= 2.0;
+      connect();
       return;
     }
-    send("(syn)");
-    after(silenceTimer_, kSynInterval, [this] { breakSilence(); });
-  }
-
-  void reconnect() {
-    say("no message in {:.1f} s, connecting anew", reconnectAfter_);
-    reconnectAfter_ *= 2.0;
-    ++connection_;
-    std::error_code ignored;
-    socket_.close(ignored);
-    outbox_.clear();
-    connect();
+    send(link_, "(syn)");
+    link_->silence.set(kSynInterval, [this] { breakSilence(); });
   }
 
   // -- playing
 
-  void read() {
-    socket_.async_read_some(
-        room(), [this, connection = connection_](std::error_code error, std::size_t count) {
-          if (finished_ || connection != connection_) return;
-          if (!error) error = absorb(count);
-          if (finished_) return;
-          if (error) {
-            finish(PlayExit::ServerGone, fmt::format("the server at {}:{} is gone ({})", options_.host,
-                                                     options_.port, error.message()));
-            return;
-          }
-          reply();
-          read();
-        });
+  void read(const Link& link) {
+    link->socket.async_read_some(room(*link), [this, link](std::error_code error, std::size_t count) {
+      if (isOver(link)) return;
+      if (!error) error = absorb(link, count);
+      if (finished_) return;
+      if (error) {
+        finish(PlayExit::ServerGone, fmt::format("the server at {}:{} is gone ({})", options_.host,
+                                                 options_.port, error.message()));
+        return;
+      }
+      reply(link);
+      read(link);
+    });
   }
 
-  asio::mutable_buffer room() {
-    const std::span<char> space = frames_.prepare(kReadSize);
+  static asio::mutable_buffer room(Connection& connection) {
+    const std::span<char> space = connection.frames.prepare(kReadSize);
     return {space.data(), space.size()};
   }
 
   /// Takes in what has arrived and all that waits behind it, so that only the newest message gets an answer.
-  std::error_code absorb(std::size_t count) {
+  std::error_code absorb(const Link& link, std::size_t count) {
     std::error_code error;
     while (count > 0) {
-      frames_.received(count);
-      while (const auto message = frames_.next()) {
-        if (!message->empty()) receive(*message);
+      link->frames.received(count);
+      while (const auto message = link->frames.next()) {
+        if (!message->empty()) receive(*link, *message);
         if (finished_) return {};
       }
-      if (frames_.failed()) {
+      if (link->frames.failed()) {
         finish(PlayExit::Error, fmt::format("{}:{} does not speak our protocol: {}", options_.host,
-                                            options_.port, frames_.error()));
+                                            options_.port, link->frames.error()));
         return {};
       }
-      count = socket_.read_some(room(), error);
+      count = link->socket.read_some(room(*link), error);
     }
     return error == asio::error::would_block ? std::error_code{} : error;
   }
 
-  void receive(std::string_view message) {
-    if (session_.counts().messages == 0) {
-      silenceTimer_.cancel();
-      after(pauseTimer_, kTurnAfterInit, [this] { turn_.release(); });
+  void receive(Connection& connection, std::string_view message) {
+    if (connection.session.counts().messages == 0) {
+      connection.silence.cancel();
+      deadline_.cancel();
+      pause_.set(kTurnAfterInit, [this] { turn_.release(); });
     }
-    if (log_) log_->received(message);
-    session_.receive(message);
-    watchStage();
+    if (log_) {
+      log_->received(message);
+      watchLog();
+    }
+    connection.session.receive(message);
+    watchStage(connection);
   }
 
-  void watchStage() {
-    if (session_.stage() == agent::Session::Stage::Refused) {
+  void watchStage(Connection& connection) {
+    const agent::Session& session = connection.session;
+    if (session.stage() == agent::Session::Stage::Refused) {
       finish(PlayExit::Refused, fmt::format("the server did not take {} {} into a team: the number is taken, "
                                             "there are two other teams already, "
                                             "or too many robots of type {} (at most 7 of a type, 9 of two "
                                             "types, and 3 types in a full team)",
                                             options_.session.agent.team, options_.session.agent.unum,
                                             options_.session.agent.robotType));
-    } else if (session_.stage() == agent::Session::Stage::Playing && !accepted_) {
-      accepted_ = true;
+    } else if (session.stage() == agent::Session::Stage::Playing && !connection.accepted) {
+      connection.accepted = true;
       turn_.release();
-      const protocol::GameStatus& game = session_.percept().game;
+      const protocol::GameStatus& game = session.percept().game;
       say("connected to {}:{} as {} {} ({})", options_.host, options_.port, options_.session.agent.team,
           game.unum.value_or(0), game.side == protocol::TeamSide::Right ? "right" : "left");
     }
   }
 
-  void reply() {
-    if (!outbox_.empty())
+  void reply(const Link& link) {
+    if (!link->outbox.empty())
       return;  // the server does not read; the answer to what comes meanwhile will be newer
-    const std::string_view answer = session_.answer();
-    if (!answer.empty()) send(answer);
+    const std::string_view answer = link->session.answer();
+    if (!answer.empty()) send(link, answer);
   }
 
-  void send(std::string_view text) {
+  void send(const Link& link, std::string_view text) {
     if (log_) log_->sent(text);
-    const bool writing = !outbox_.empty();
-    protocol::appendFrame(outbox_, text);
-    if (!writing) write();
+    const bool writing = !link->outbox.empty();
+    protocol::appendFrame(link->outbox, text);
+    if (!writing) write(link);
   }
 
   // Mostly one write takes all at once; the rest waits until the server reads on.
-  void write() {
+  void write(const Link& link) {
     std::error_code error;
-    const std::size_t count = socket_.write_some(asio::buffer(outbox_), error);
-    outbox_.erase(0, count);
-    if (outbox_.empty()) return;
+    const std::size_t count = link->socket.write_some(asio::buffer(link->outbox), error);
+    link->outbox.erase(0, count);
+    if (link->outbox.empty()) return;
     if (error && error != asio::error::would_block) {
-      outbox_.clear();  // reading tells the same, and is where it is reported
+      link->outbox.clear();  // reading tells the same, and is where it is reported
       return;
     }
-    socket_.async_wait(tcp::socket::wait_write, [this, connection = connection_](std::error_code failure) {
-      if (finished_ || failure || connection != connection_) return;
-      write();
-      reply();
+    link->socket.async_wait(tcp::socket::wait_write, [this, link](std::error_code failure) {
+      if (failure || isOver(link)) return;
+      write(link);
+      reply(link);
     });
+  }
+
+  /// A full disk does not end a match, but is said when it happens.
+  void watchLog() {
+    if (!log_->failed() || toldOfLog_) return;
+    toldOfLog_ = true;
+    fmt::print(stderr, "nonet play: {}\n", log_->error());
   }
 
   // -- ending
@@ -273,7 +295,7 @@ class PlayClient {
   }
 
   void report() {
-    const agent::SessionCounts& counts = session_.counts();
+    const agent::SessionCounts counts = link_ ? link_->session.counts() : agent::SessionCounts();
     if (counts.messages > 0) {
       say("{} messages, {} answered, {} passed over for a newer one, {} cycles without a message, {} unknown "
           "tokens",
@@ -283,7 +305,12 @@ class PlayClient {
     const nlohmann::json json = {{"exit", static_cast<int>(exit_)},  {"messages", counts.messages},
                                  {"answers", counts.answers},        {"passed_over", counts.passedOver},
                                  {"lost_cycles", counts.lostCycles}, {"unknown", counts.unknownTokens}};
-    std::ofstream(options_.report) << json.dump() << "\n";
+    report_ << json.dump() << "\n";
+    if (!report_.flush()) fmt::print(stderr, "nonet play: {}\n", cannotWriteReport());
+  }
+
+  std::string cannotWriteReport() const {
+    return fmt::format("--report {}: cannot be written ({})", options_.report, std::strerror(errno));
   }
 
   template <class... Arguments>
@@ -294,23 +321,20 @@ class PlayClient {
   }
 
   PlayOptions options_;
-  agent::Session session_;
   Turn turn_;
   asio::io_context io_{1};
   asio::signal_set signals_;
   tcp::resolver resolver_{io_};
-  tcp::socket socket_{io_};
-  Timer pauseTimer_{io_};
-  Timer silenceTimer_{io_};
-  protocol::FrameReader frames_;
+  Alarm pause_{io_};     // until the next look for a turn or for a server; later until the turn is given back
+  Alarm deadline_{io_};  // for the first message
   std::unique_ptr<protocol::LogWriter> log_;
-  std::string outbox_;  // frames not yet taken by the socket
+  std::ofstream report_;
+  Link link_;
   Clock::time_point started_;
-  Clock::time_point greeted_;
-  double pause_ = kFirstPause;
+  std::string trouble_ = "no answer";  // why the last attempt to connect failed
+  double nextPause_ = kFirstPause;
   double reconnectAfter_ = kSilenceBeforeReconnect;
-  int connection_ = 0;  // counts connections, so that late events of an old one are told apart
-  bool accepted_ = false;
+  bool toldOfLog_ = false;
   bool finished_ = false;
   PlayExit exit_ = PlayExit::Stopped;
 };

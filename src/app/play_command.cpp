@@ -4,6 +4,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/play_client.h"
+#include "nonet/app/team_name.h"
 
 namespace nonet::app {
 namespace {
@@ -14,9 +15,11 @@ struct PlayArguments {
   std::string sync = "auto";
   std::vector<double> start;  // x, y in metres; heading 0
   std::string challenge;
+  std::string data;
 };
 
 int runPlay(PlayArguments& arguments) {
+  checkTeamName(arguments.choice.team);
   if (!arguments.start.empty()) {
     arguments.choice.startPose = Pose2(arguments.start.at(0), arguments.start.at(1), 0.0);
   }
@@ -24,7 +27,7 @@ int runPlay(PlayArguments& arguments) {
     fmt::print("challenge {}: the agent starts at its place and plays as in a match\n", arguments.challenge);
   }
   PlayOptions& play = arguments.play;
-  play.session.agent = agent::makeAgentConfig(arguments.choice, dataFolder());
+  play.session.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
   // A server in real time ignores (syn), so there is nothing to find out: auto means on, and takes care of
   // servers that hang before the first message.
   play.session.sync = arguments.sync != "off";
@@ -60,8 +63,16 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command->add_option("--params", choice.parameterFiles, "Parameter files, overlaid in this order")
       ->check(CLI::ExistingFile);
+  command
+      ->add_option("--set", choice.assignments,
+                   "One parameter, name=value, such as team.ball.kick=false; set last")
+      ->allow_extra_args(false);
+  command->add_option("--data", arguments->data, "Folder with params/ and skills/")
+      ->check(CLI::ExistingDirectory);
   command->add_option("--seed", choice.seed, "Seed of the agent's random numbers")->capture_default_str();
-  command->add_option("--wait", play.wait, "Seconds to wait for a server")->capture_default_str();
+  command->add_option("--wait", play.wait, "Seconds to wait for a server, and for its first message")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command->add_option("--start", arguments->start, "Beam to X,Y instead of the kick-off place")
       ->delimiter(',')
       ->expected(2);

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,7 +19,6 @@ struct ReplayArguments {
   bool json = false;
   bool localization = false;
   std::string maps = "logs/maps";
-  std::vector<std::string> assignments;
 };
 
 /// "logs/3.zst" -> "FOLDER/3.zst.svg".
@@ -51,8 +48,13 @@ void printLocalization(const lab::LocalizationReport& report, const std::string&
   if (known) fmt::print("  map in {}\n", map);
 }
 
-/// False if the replay shows a difference or an unknown token.
-bool replayOne(const std::string& file, ReplayArguments& arguments, lab::LocalizationReport& all) {
+// Exit codes; of several files the worst.
+constexpr int kDifference = 1;
+constexpr int kUnreadable = 2;
+constexpr int kNoLog = 3;
+
+/// The exit code for this file.
+int replayOne(const std::string& file, ReplayArguments& arguments, lab::LocalizationReport& all) {
   lab::LocalizationReport localization;
   if (arguments.localization) {
     arguments.options.observer = [&](const agent::Session& session) {
@@ -72,33 +74,23 @@ bool replayOne(const std::string& file, ReplayArguments& arguments, lab::Localiz
   } else {
     fmt::print("{}", report.toText());
   }
-  return report.clean();
-}
-
-std::pair<std::string, double> parseAssignment(const std::string& text) {
-  const std::size_t sign = text.find('=');
-  if (sign != std::string::npos) {
-    double value = 0.0;
-    const char* end = text.data() + text.size();
-    const auto result = std::from_chars(text.data() + sign + 1, end, value);
-    if (result.ec == std::errc() && result.ptr == end) return {text.substr(0, sign), value};
+  if (!report.sound) {
+    fmt::print(stderr, "nonet replay: {}\n", report.problem);
+    return kNoLog;
   }
-  throw std::runtime_error("--set " + text + ": give it as key=number");
+  return report.clean() ? 0 : kDifference;
 }
 
 int runReplay(ReplayArguments& arguments) {
-  for (const std::string& text : arguments.assignments) {
-    arguments.options.parameters.push_back(parseAssignment(text));
-  }
-  arguments.options.dataFolder = dataFolder();
+  arguments.options.dataFolder = dataFolder(arguments.options.dataFolder);
   lab::LocalizationReport all;
   int exitCode = 0;
   for (const std::string& file : arguments.files) {
     try {
-      if (!replayOne(file, arguments, all)) exitCode = std::max(exitCode, 1);
+      exitCode = std::max(exitCode, replayOne(file, arguments, all));
     } catch (const std::exception& error) {
       fmt::print(stderr, "nonet replay: {}\n", error.what());
-      exitCode = 2;
+      exitCode = std::max(exitCode, kUnreadable);
     }
   }
   if (arguments.localization && !arguments.json && arguments.files.size() > 1) {
@@ -115,26 +107,33 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->add_option("files", arguments->files, "Logs: our own, or foreign ones, plain, gzip or zstd")
       ->required();
   command->add_flag("--json", arguments->json, "One JSON object per file and line");
-  command->add_flag("--localization", arguments->localization,
-                    "Errors of the believed pose against mypos and myorien in the log, every vision message "
-                    "counted, and a map of both tracks");
+  CLI::Option* localization = command->add_flag(
+      "--localization", arguments->localization,
+      "Errors of the believed pose against mypos and myorien in the log, every vision message "
+      "counted, and a map of both tracks");
   command->add_option("--maps", arguments->maps, "With --localization: folder for the maps (SVG)")
+      ->needs(localization)
       ->capture_default_str();
   lab::ReplayOptions& options = arguments->options;
   command->add_option("--unum", options.unum, "Foreign logs: the robot's number, if the log does not tell");
   command->add_option("--team", options.team, "Foreign logs: its team");
   command->add_option("--type", options.robotType, "Foreign logs: its type")->check(CLI::Range(0, 4));
   command
-      ->add_option("--params", options.parameterFiles,
-                   "Foreign logs: parameter files, overlaid in this order")
+      ->add_option(
+          "--params", options.parameterFiles,
+          "Parameter files, overlaid in this order on those of the type (foreign logs) or of the header")
       ->check(CLI::ExistingFile);
   command
-      ->add_option("--set", arguments->assignments,
-                   "One parameter of the agent, key=number, for example world.useLines=0")
+      ->add_option("--set", options.assignments,
+                   "One parameter of the agent, name=value, for example world.useLines=0; set last")
       ->allow_extra_args(false);
+  command->add_option("--data", options.dataFolder, "Folder with params/ and skills/")
+      ->check(CLI::ExistingDirectory);
   command->footer(
       "Our own logs hold their parameters and seed: the answers must come out byte for byte as recorded.\n"
-      "Exit codes: 0 all well, 1 a difference or an unknown token, 2 a file cannot be read.");
+      "Exit codes: 0 all well, also if the last line is torn, 1 a difference or an unknown token, 2 a file "
+      "cannot "
+      "be read,\n3 a file is damaged or no log of an agent; of several files the highest.");
   command->callback([arguments, &exitCode] { exitCode = runReplay(*arguments); });
 }
 

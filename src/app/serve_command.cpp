@@ -32,6 +32,7 @@ struct ServeArguments {
 
 constexpr const char* kExamples = R"(Examples:
   nonet serve                                    real time, ports 3100 and 3200, as the league's server
+  nonet serve --bind 0.0.0.0                     the same for agents on other machines
   nonet serve --sync --players 18 --left Nonet   a reproducible match in lock-step
   nonet serve --sync --truth --no-noise          for experiments with one robot
   nonet serve --set RuleHalfTime=60 --set AutomaticKickOff=true
@@ -64,9 +65,14 @@ int runServe(ServeArguments& arguments) {
   arguments.server.realTime = arguments.realTime || (!arguments.sync && !arguments.freeRun);
   arguments.server.handleSignals = true;
   sim::Server server(settings, arguments.seed, arguments.server);
-  spdlog::info("server: agents on port {}, monitors on port {}, {}{}, seed {}", server.agentPort(),
-               server.monitorPort(), arguments.sync ? "lock-step" : "no lock-step",
+  spdlog::info("server: agents on port {}, monitors on port {} of {}, {}{}, seed {}", server.agentPort(),
+               server.monitorPort(), arguments.server.address, arguments.sync ? "lock-step" : "no lock-step",
                arguments.server.realTime ? " in real time" : "", arguments.seed);
+  if (arguments.server.address.starts_with("127.")) {
+    spdlog::info("server: other machines cannot reach it; --bind 0.0.0.0 lets them");
+  } else {
+    spdlog::warn("server: whoever reaches port {} is obeyed as a trainer", server.monitorPort());
+  }
   server.run();
   const sim::MatchState& match = server.simulation().match();
   spdlog::info("server: ended at {:.2f} s of the game, {} {} : {} {}", match.time,
@@ -87,7 +93,16 @@ void addServeCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--monitor-port", a.server.monitorPort, "Port for monitors and trainers, 0: any free one")
       ->capture_default_str();
-  command->add_option("--bind", a.server.address, "Address to listen on")->capture_default_str();
+  command
+      ->add_option("--bind", a.server.address,
+                   "Address to listen on; 0.0.0.0: all, so that others can connect")
+      ->capture_default_str();
+  command->add_option("--most-connections", a.server.mostConnections, "Of agents, and of monitors, at once")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--most-per-address", a.server.mostPerAddress, "Of these from one address")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
   command->add_option("--seed", a.seed, "Seed of all noise and of the referee's random choices")
       ->capture_default_str();
   auto* realTime =

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,37 +44,69 @@ std::vector<std::string> expand(const std::vector<std::string>& arguments) {
   return files;
 }
 
-int check(const SkillArguments& arguments) {
-  int wrong = 0;
-  std::vector<motion::Skill> all;
-  const std::vector<std::string> files = expand(arguments.files);
-  for (const std::string& file : files) {
-    try {
-      for (motion::Skill& skill : motion::parseSkills(readFile(file), file)) all.push_back(std::move(skill));
-    } catch (const std::exception& error) {
-      fmt::print(stderr, "{}\n", error.what());
-      ++wrong;
-    }
-  }
-  if (wrong > 0) return 1;
-  // Calls are looked up among the files given and in the folders they come from.
-  std::vector<std::string> folders;
-  folders.reserve(files.size());
-  for (const std::string& file : files) {
-    folders.push_back(std::filesystem::path(file).parent_path().string());
-  }
-  std::sort(folders.begin(), folders.end());
-  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
-  const std::size_t given = all.size();
+/// Skills of the files beside `files`, for calls into them. Those that make no sense are not this check's
+/// business: it says that they were not read.
+std::vector<motion::Skill> neighboursOf(const std::vector<std::string>& files) {
+  std::set<std::string> folders;
+  for (const std::string& file : files) folders.insert(std::filesystem::path(file).parent_path().string());
+  std::vector<motion::Skill> skills;
   for (const std::string& folder : folders) {
     for (const std::string& file : motion::skillFiles(folder.empty() ? "." : folder)) {
       const auto same = [&](const std::string& other) { return std::filesystem::equivalent(file, other); };
       if (std::any_of(files.begin(), files.end(), same)) continue;
-      for (motion::Skill& skill : motion::parseSkills(readFile(file), file)) all.push_back(std::move(skill));
+      motion::SkillCheck neighbour = motion::checkSkills(readFile(file), file);
+      if (!neighbour.errors.empty()) {
+        fmt::print(stderr, "{}: has errors of its own ({}), is not checked here\n", file,
+                   neighbour.errors.size());
+      }
+      for (motion::Skill& skill : neighbour.skills) skills.push_back(std::move(skill));
     }
   }
-  const motion::SkillLibrary library(std::move(all));
-  fmt::print("{} files, {} skills: no errors\n", files.size(), given);
+  return skills;
+}
+
+/// Calls of skills that are not among `all`, one line each.
+std::vector<std::string> missingCalls(const std::vector<motion::Skill>& given,
+                                      const std::vector<motion::Skill>& all) {
+  std::set<std::string> names;
+  for (const motion::Skill& skill : all) names.insert(skill.name);
+  std::vector<std::string> errors;
+  for (const motion::Skill& skill : given) {
+    for (const motion::Instruction& instruction : skill.program) {
+      if (instruction.kind != motion::Instruction::Kind::Call || names.contains(instruction.calleeName))
+        continue;
+      errors.push_back(fmt::format("{}:{}:{}: there is no skill '{}'", skill.file, instruction.line,
+                                   instruction.column, instruction.calleeName));
+    }
+  }
+  return errors;
+}
+
+int check(const SkillArguments& arguments) {
+  std::vector<motion::Skill> given;
+  std::vector<std::string> errors;
+  const std::vector<std::string> files = expand(arguments.files);
+  for (const std::string& file : files) {
+    motion::SkillCheck one = motion::checkSkills(readFile(file), file);
+    errors.insert(errors.end(), one.errors.begin(), one.errors.end());
+    for (motion::Skill& skill : one.skills) given.push_back(std::move(skill));
+  }
+  std::vector<motion::Skill> all = neighboursOf(files);
+  all.insert(all.end(), given.begin(), given.end());
+  for (std::string& error : missingCalls(given, all)) errors.push_back(std::move(error));
+  if (errors.empty()) {
+    try {
+      const motion::SkillLibrary library(std::move(all));  // names twice, calls in a circle
+    } catch (const motion::SkillError& error) {
+      errors.emplace_back(error.what());
+    }
+  }
+  for (const std::string& error : errors) fmt::print(stderr, "{}\n", error);
+  if (!errors.empty()) {
+    fmt::print(stderr, "{} files, {} errors\n", files.size(), errors.size());
+    return 1;
+  }
+  fmt::print("{} files, {} skills: no errors\n", files.size(), given.size());
   return 0;
 }
 

@@ -134,8 +134,6 @@ class TcpMatch {
       std::vector<std::string> command = {executablePath(), "play", "--host",   "127.0.0.1",
                                           "--sync",         "on",   "--at-once"};
       const lab::TeamChoice& team = player.rightTeam ? options_.match.right : options_.match.left;
-      if (!team.dataFolder.empty())
-        command.insert(command.begin(), {"/usr/bin/env", "NONET_DATA=" + team.dataFolder});
       const auto add = [&](const std::string& option, const std::string& value) {
         command.push_back(option);
         command.push_back(value);
@@ -147,6 +145,8 @@ class TcpMatch {
       add("--seed", std::to_string(agent.seed));
       add("--report", folder_.file(nameOf(player) + ".json"));
       for (const std::string& file : agent.parameterFiles) add("--params", file);
+      for (const std::string& assignment : agent.assignments) add("--set", assignment);
+      if (!team.dataFolder.empty()) add("--data", team.dataFolder);
       if (!options_.logs.empty())
         add("--record", (fs::path(options_.logs) / (nameOf(player) + ".zst")).string());
       processes_.start(command, folder_.file(nameOf(player) + ".txt"));

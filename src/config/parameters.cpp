@@ -8,6 +8,8 @@
 #include <limits>
 #include <set>
 
+#include "nonet/config/nearest.h"
+
 #include "fields.h"
 #include "units.h"
 
@@ -81,22 +83,6 @@ double numberFrom(const Field& field, std::string_view text) {
       unit == Unit::None ? ""
                          : fmt::format(" in {}, or one with a unit: {}", unitName(unit), acceptedUnits(unit));
   throw ParameterError(fmt::format("{} = '{}' is not a number: use one{}", field.key, text, units));
-}
-
-// Levenshtein's distance.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
 }
 
 const Field& fieldNamed(const std::vector<Field>& fields, std::string_view key) {

@@ -18,6 +18,7 @@ struct Spelling {
   bool degrees = false;
 };
 
+constexpr std::array<Spelling, 1> kPlain{{{"", 1.0}}};
 constexpr std::array<Spelling, 3> kLengths{{{"m", 1.0}, {"cm", 100.0}, {"mm", 1000.0}}};
 constexpr std::array<Spelling, 2> kAngles{{{"rad", 1.0}, {"deg", 1.0, true}}};
 constexpr std::array<Spelling, 1> kDegrees{{{"deg", 1.0}}};
@@ -32,7 +33,7 @@ constexpr std::array<Spelling, 1> kFrequencies{{{"Hz", 1.0}}};
 std::span<const Spelling> spellings(Unit unit) {
   switch (unit) {
     case Unit::None:
-      return {};
+      return kPlain;
     case Unit::Metre:
       return kLengths;
     case Unit::Radian:

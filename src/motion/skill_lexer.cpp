@@ -40,7 +40,8 @@ bool isDigit(char c) {
 
 class Lexer {
  public:
-  Lexer(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  Lexer(std::string_view text, const std::string& file, std::vector<std::string>* errors)
+      : text_(text), file_(file), errors_(errors) {}
 
   std::vector<SkillToken> run() {
     while (at_ < text_.size()) next();
@@ -85,7 +86,8 @@ class Lexer {
     } else if (std::string_view("{}(),=<>+-*/.").find(c) != std::string_view::npos) {
       add(SkillToken::Kind::Symbol, 1);
     } else {
-      failAt(file_, add(SkillToken::Kind::Symbol, 1), "this character means nothing here");
+      fail(add(SkillToken::Kind::Symbol, 1), "this character means nothing here");
+      tokens_.pop_back();
     }
   }
 
@@ -113,11 +115,18 @@ class Lexer {
       token.value = value * unit.factor;
       return;
     }
-    failAt(file_, token, fmt::format("unknown unit '{}' (deg rad s ms m cm mm deg/s rad/s m/s)", unitText));
+    fail(token, fmt::format("unknown unit '{}' (deg rad s ms m cm mm deg/s rad/s m/s)", unitText));
+    token.value = 0.0;  // fits every unit, so that nothing follows from this error
+  }
+
+  void fail(const SkillToken& token, const std::string& message) const {
+    if (errors_ == nullptr) failAt(file_, token, message);
+    errors_->push_back(errorAt(file_, token, message));
   }
 
   std::string_view text_;
   const std::string& file_;
+  std::vector<std::string>* errors_;
   std::size_t at_ = 0;
   std::size_t lineBegin_ = 0;
   int line_ = 1;
@@ -126,12 +135,17 @@ class Lexer {
 
 }  // namespace
 
-void failAt(const std::string& file, const SkillToken& token, const std::string& message) {
-  throw SkillError(fmt::format("{}:{}:{}: {}", file, token.line, token.column, message));
+std::string errorAt(const std::string& file, const SkillToken& token, const std::string& message) {
+  return fmt::format("{}:{}:{}: {}", file, token.line, token.column, message);
 }
 
-std::vector<SkillToken> lexSkills(std::string_view text, const std::string& file) {
-  return Lexer(text, file).run();
+void failAt(const std::string& file, const SkillToken& token, const std::string& message) {
+  throw SkillError(errorAt(file, token, message));
+}
+
+std::vector<SkillToken> lexSkills(std::string_view text, const std::string& file,
+                                  std::vector<std::string>* errors) {
+  return Lexer(text, file, errors).run();
 }
 
 }  // namespace nonet::motion

@@ -20,8 +20,12 @@ struct SkillToken {
 };
 
 /// All tokens, comments and line ends included, closed by End. Throws SkillError.
-std::vector<SkillToken> lexSkills(std::string_view text, const std::string& file);
+/// With `errors` they are put there instead of thrown, and reading goes on.
+std::vector<SkillToken> lexSkills(std::string_view text, const std::string& file,
+                                  std::vector<std::string>* errors = nullptr);
 
+/// "file:line:column: message".
+std::string errorAt(const std::string& file, const SkillToken& token, const std::string& message);
 /// Throws SkillError at a token.
 [[noreturn]] void failAt(const std::string& file, const SkillToken& token, const std::string& message);
 

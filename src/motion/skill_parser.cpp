@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "nonet/math/angle.h"
+#include "nonet/model/robot_model.h"
 #include "nonet/motion/limbs.h"
 #include "nonet/motion/skill_language.h"
 
@@ -35,12 +38,21 @@ constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm
 
 class Parser : private SkillReader {
  public:
-  Parser(std::string_view text, const std::string& file, const ParameterLookup& lookup)
-      : SkillReader(text, file), lookup_(lookup) {}
+  Parser(std::string_view text, const std::string& file, const ParameterLookup& lookup,
+         std::vector<std::string>* errors = nullptr)
+      : SkillReader(text, file, errors), lookup_(lookup) {}
 
   std::vector<Skill> run() {
     std::vector<Skill> skills;
-    while (peek().kind != Kind::End) skills.push_back(parseSkill());
+    const auto begins = [](const SkillToken& token) { return token.text == "skill"; };
+    try {
+      while (peek().kind != Kind::End) {
+        part([&] { skills.push_back(parseSkill()); }, begins);
+        if (collects() && peek().kind != Kind::End && !begins(peek())) take();  // a bracket too many
+      }
+    } catch (const GivenUp&) {
+      return skills;
+    }
     return skills;
   }
 
@@ -53,7 +65,10 @@ class Parser : private SkillReader {
     skill_.file = file();
     skill_.name = word("the name of the skill");
     expect("{");
-    while (accept("parameter")) parseParameter();
+    const auto begins = [](const SkillToken& token) {
+      return token.text == "parameter" || isStatement(token);
+    };
+    while (accept("parameter")) part([this] { parseParameter(); }, begins);
     block();
     emit(Instruction::Kind::End);
     return std::move(skill_);
@@ -64,6 +79,7 @@ class Parser : private SkillReader {
     SkillParameter parameter;
     parameter.name = word("the name of the parameter");
     if (isNamed(parameter.name)) failAt(nameToken, "this parameter exists already");
+    if (collects()) nameValue(parameter.name, {});  // known, even if what follows makes no sense
     expect("=");
     const SkillValue initial = anyValue();
     parameter.value = initial.number;
@@ -96,8 +112,19 @@ class Parser : private SkillReader {
   // Statements up to and including the closing bracket.
   void block() {
     enter();
-    while (!accept("}")) statement();
+    while (!accept("}")) part([this] { statement(); }, isStatement);
     leave();
+  }
+
+  static bool isStatement(const SkillToken& token) {
+    static constexpr std::array<std::string_view, 9> kWords{"move", "curve",     "wait", "if",  "repeat",
+                                                            "call", "stiffness", "end",  "fail"};
+    return token.kind == Kind::Word && std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
+  }
+  static bool isTarget(const SkillToken& token) {
+    static constexpr std::array<std::string_view, 7> kWords{"left", "right", "both", "head",
+                                                            "foot", "stand", "point"};
+    return token.kind == Kind::Word && std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
   }
 
   void statement() {
@@ -130,7 +157,7 @@ class Parser : private SkillReader {
       if (accept("stand")) {
         instruction.stand = true;
       } else {
-        target(instruction);
+        part([&] { target(instruction); }, isTarget);
       }
     }
   }
@@ -146,20 +173,22 @@ class Parser : private SkillReader {
       if (!instruction.fromBall) expect("torso");
     }
     expect("{");
-    while (!accept("}")) {
-      const SkillToken first = peek();
-      if (accept("point")) {
-        instruction.points.push_back(pose(foot));
-      } else {
-        target(instruction);
-      }
-      if (!instruction.feet.empty() && instruction.feet.back().side == foot) {
-        failAt(first, "this foot follows the curve; only the other one may have a target");
-      }
-    }
+    while (!accept("}")) part([&] { pointOrTarget(instruction, foot); }, isTarget);
     const std::size_t count = instruction.points.size();
     if (count == 0 || count > Instruction::kMostPoints) {
       fail(fmt::format("a curve has 1 to {} points", Instruction::kMostPoints));
+    }
+  }
+
+  void pointOrTarget(Instruction& instruction, Side foot) {
+    const SkillToken first = peek();
+    if (accept("point")) {
+      instruction.points.push_back(pose(foot));
+    } else {
+      target(instruction);
+    }
+    if (!instruction.feet.empty() && instruction.feet.back().side == foot) {
+      failAt(first, "this foot follows the curve; only the other one may have a target");
     }
   }
 
@@ -197,7 +226,11 @@ class Parser : private SkillReader {
     const std::string name = word("the name of a joint");
     if (group == "head") {
       if (name != "pan" && name != "tilt") failAt(nameToken, "the head has the joints pan and tilt");
+      const SkillToken angleToken = peek();
       const double angle = withAngle ? value(Unit::Radian) : 0.0;
+      if (withAngle)
+        checkLimits(angleToken, name == "pan" ? JointId::Head1 : JointId::Head2,
+                    name == "pan" ? angle : -angle);
       // Tilt is positive downwards here as in a head request; the joint is positive upwards.
       if (name == "pan") instruction.joints.push_back({JointId::Head1, angle});
       if (name == "tilt") instruction.joints.push_back({JointId::Head2, -angle});
@@ -206,10 +239,33 @@ class Parser : private SkillReader {
     const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
                                     [&](const JointWord& joint) { return joint.name == name; });
     if (found == kLimbJoints.end()) failAt(nameToken, fmt::format("unknown joint '{}'", name));
+    const SkillToken angleToken = peek();
     const double angle = withAngle ? value(Unit::Radian) : 0.0;
+    if (withAngle) checkLimits(angleToken, found->left, angle);
     const JointId right = model::mirrored(found->left);
     if (group != "right") instruction.joints.push_back({found->left, angle});
     if (group != "left") instruction.joints.push_back({right, mirrorsSign(right) ? -angle : angle});
+  }
+
+  // Only when errors are collected: learned values of parameters may lie outside, and the joint then stops at
+  // its limit.
+  void checkLimits(const SkillToken& token, JointId joint, double angle) const {
+    if (!collects()) return;
+    config::Range widest{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (int type = 0; type <= 4; ++type) {
+      const model::RobotModel& robot = model::robotModel(type);
+      if (!robot.has(joint)) continue;
+      widest.low = std::min(widest.low, robot.joint(joint).low);
+      widest.high = std::max(widest.high, robot.joint(joint).high);
+    }
+    constexpr double kRounding = 1e-6;
+    if (angle >= widest.low - kRounding && angle <= widest.high + kRounding) return;
+    // As it stands in the file: tilt is turned round there.
+    const double sign = joint == JointId::Head2 ? -1.0 : 1.0;
+    const double a = toDegrees(sign * widest.low);
+    const double b = toDegrees(sign * widest.high);
+    note(token, fmt::format("{:.4g} deg is out of the joint's reach, {:.4g} .. {:.4g} deg",
+                            toDegrees(sign * angle), std::min(a, b), std::max(a, b)));
   }
 
   void wait() {
@@ -380,6 +436,13 @@ bool mirrorsSign(JointId joint) {
 std::vector<Skill> parseSkills(std::string_view text, const std::string& file,
                                const ParameterLookup& lookup) {
   return Parser(text, file, lookup).run();
+}
+
+SkillCheck checkSkills(std::string_view text, const std::string& file) {
+  SkillCheck check;
+  const ParameterLookup none;
+  check.skills = Parser(text, file, none, &check.errors).run();
+  return check;
 }
 
 }  // namespace nonet::motion

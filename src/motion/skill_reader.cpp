@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "nonet/motion/skill_language.h"
+
 namespace nonet::motion {
 
 using config::Unit;
 using Kind = SkillToken::Kind;
 
-SkillReader::SkillReader(std::string_view text, const std::string& file) : file_(file) {
-  for (const SkillToken& token : lexSkills(text, file)) {
+SkillReader::SkillReader(std::string_view text, const std::string& file, std::vector<std::string>* errors)
+    : file_(file), errors_(errors) {
+  for (const SkillToken& token : lexSkills(text, file, errors)) {
     if (token.kind != Kind::Comment && token.kind != Kind::NewLine) tokens_.push_back(token);
   }
 }
@@ -38,6 +41,39 @@ std::string SkillReader::word(std::string_view what) {
 
 void SkillReader::failAt(const SkillToken& token, const std::string& message) const {
   motion::failAt(file_, token, message);
+}
+
+void SkillReader::note(const SkillToken& token, const std::string& message) const {
+  if (errors_ == nullptr) failAt(token, message);
+  errors_->push_back(errorAt(file_, token, message));
+}
+
+void SkillReader::part(const std::function<void()>& read,
+                       const std::function<bool(const SkillToken&)>& begins) {
+  if (errors_ == nullptr) return read();
+  const std::size_t begin = at_;
+  const int outside = depth_;
+  try {
+    return read();
+  } catch (const SkillError& error) {
+    errors_->push_back(error.what());
+  }
+  depth_ = outside;
+  int open = 0;  // brackets of this part
+  const auto count = [&open](const SkillToken& token) {
+    if (token.kind == Kind::Symbol) open += token.text == "{" ? 1 : token.text == "}" ? -1 : 0;
+  };
+  for (std::size_t i = begin; i < at_; ++i) count(tokens_[i]);
+  for (; peek().kind != Kind::End; ++at_) {
+    const bool closes = peek().kind == Kind::Symbol && peek().text == "}";
+    if (open <= 0 && (closes || (at_ > begin && begins(peek())))) return;
+    count(peek());
+    if (open == 0 && closes) {
+      ++at_;
+      return;
+    }
+  }
+  throw GivenUp{};
 }
 
 void SkillReader::enter() {

@@ -26,7 +26,8 @@ struct SkillValue {
 class SkillReader {
  public:
   /// Skips comments and line ends. `text` must outlive the reader.
-  SkillReader(std::string_view text, const std::string& file);
+  /// With `errors`, those that can be passed over are put there, and reading goes on.
+  SkillReader(std::string_view text, const std::string& file, std::vector<std::string>* errors = nullptr);
 
   const std::string& file() const { return file_; }
   const SkillToken& peek() const { return tokens_[at_]; }
@@ -38,6 +39,16 @@ class SkillReader {
   std::string word(std::string_view what);
   [[noreturn]] void fail(const std::string& message) const { failAt(peek(), message); }
   [[noreturn]] void failAt(const SkillToken& token, const std::string& message) const;
+
+  /// Passes over what is wrong without losing the place: notes the error, or throws it if errors are not
+  /// collected.
+  void note(const SkillToken& token, const std::string& message) const;
+  bool collects() const { return errors_ != nullptr; }
+  /// Reads one part of a list. If it does not make sense and errors are collected, they get it, and all is
+  /// skipped up to the next word that `begins` such a part, or the bracket that ends the list.
+  void part(const std::function<void()>& read, const std::function<bool(const SkillToken&)>& begins);
+  /// Thrown by part() at the end of the text, when nothing can be skipped any more; the error is noted.
+  struct GivenUp {};
 
   /// Blocks, brackets and negations nest only so deep.
   void enter();
@@ -60,6 +71,7 @@ class SkillReader {
   SkillValue product();
 
   std::string file_;
+  std::vector<std::string>* errors_;
   std::vector<SkillToken> tokens_;
   std::size_t at_ = 0;
   int depth_ = 0;

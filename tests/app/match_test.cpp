@@ -143,6 +143,84 @@ TEST_F(MatchCommand, PlayWithoutServerEndsWithTwo) {
   EXPECT_NE(program.output().find("no server"), std::string::npos);
 }
 
+// Stopped in the middle, with the result so far in the file as over TCP.
+TEST_F(MatchCommand, AMatchThatIsStoppedKeepsItsResult) {
+  for (const bool here : {true, false}) {
+    for (const int signal : {SIGTERM, SIGINT}) {
+      std::vector<std::string> arguments = {
+          "match",         "--players",        "1", "--minutes", "60", "--json", file("stopped.json"),
+          "--monitor-log", file("stopped.mon")};
+      if (here) arguments.emplace_back("--in-process");
+      fs::remove(file("stopped.mon"));
+      Program program(arguments, file("stopped.txt"));
+      for (int i = 0;
+           i < 200 && (!fs::exists(file("stopped.mon")) || fs::file_size(file("stopped.mon")) < 50000); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      ::kill(program.pid(), signal);
+      EXPECT_EQ(program.wait(), 1) << program.output();
+      const auto result = json("stopped.json");
+      EXPECT_FALSE(result["finished"]);
+      EXPECT_GT(result["cycles"], 10);
+      fs::remove(file("stopped.json"));
+    }
+  }
+}
+
+TEST_F(MatchCommand, SaysBeforeTheMatchThatTheResultCannotBeWritten) {
+  Program program({"match", "--in-process", "--minutes", "60", "--json", folder_.string()}, file("x.txt"));
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_NE(program.output().find("--json " + folder_.string() + ": cannot be written"), std::string::npos);
+}
+
+TEST_F(MatchCommand, TeamNamesThatWouldFailLateAreRefused) {
+  for (const std::string& name : std::vector<std::string>{"A/B", "A B", "A(B", std::string(65, 'x')}) {
+    Program program({"match", "--in-process", "--minutes", "60", "--left", name, "--json", file("x.json")},
+                    file("x.txt"));
+    EXPECT_EQ(program.wait(), 1) << name;
+    EXPECT_NE(program.output().find("team '" + name + "'"), std::string::npos) << program.output();
+  }
+}
+
+// The clock of the game, without the waits before the halves: nobody stands longer than the game lasts.
+TEST_F(MatchCommand, NobodyStandsLongerThanTheGameLasts) {
+  Program program({"match", "--in-process", "--players", "1", "--minutes", "0.05", "--kick-off-wait", "2",
+                   "--json", file("stand.json")},
+                  file("stand.txt"));
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  const auto result = json("stand.json");
+  for (const auto& player : result["players"]) {
+    EXPECT_LE(player["standing_after_kickoff_s"], result["game_time_s"]);
+    if (player["falls"] == 0) {
+      EXPECT_EQ(player["standing_after_kickoff_s"], result["game_time_s"]);
+    }
+  }
+}
+
+// Values of both kinds in one option, the same in one process and over TCP.
+TEST_F(MatchCommand, SetsServerAndAgents) {
+  const std::vector<std::string> common = {
+      "match", "--players",       "1",   "--alone",       "--minutes",
+      "0.05",  "--kick-off-wait", "0.5", "--monitor-log", file("set.mon")};
+  std::vector<std::string> signatures;
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{},
+        {"--in-process", "--set", "world.usePoseFit=false", "--set", "world.useParticleFilter=false"},
+        {"--set", "world.usePoseFit=false", "--set", "world.useParticleFilter=false"}}) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), {"--json", file("set.json")});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Program program(arguments, file("set.txt"));
+    EXPECT_EQ(program.wait(), 0) << program.output();
+    signatures.push_back(json("set.json")["signature"]);
+  }
+  EXPECT_NE(signatures[0], signatures[1]);
+  EXPECT_EQ(signatures[1], signatures[2]);
+  Program server({"match", "--in-process", "--set", "RuleHalfTimes=3", "--json", file("x.json")},
+                 file("x.txt"));
+  EXPECT_EQ(server.wait(), 1);
+  EXPECT_NE(server.output().find("RuleHalfTime"), std::string::npos) << server.output();
+}
+
 TEST_F(MatchCommand, TellsWhyAMatchCannotBegin) {
   std::ofstream(file("wrong.toml")) << "nosuchparameter = 1\n";
   Program program({"match", "--players", "1", "--left-params", file("wrong.toml"), "--json", file("x.json")},

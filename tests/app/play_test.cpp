@@ -121,6 +121,7 @@ TEST(Play, SendsNoSynIfToldSo) {
   PlayOptions options = optionsFor(server);
   options.session.sync = false;
   options.rescue = false;
+  options.wait = 5.0;
   Player player(options);
   server.accept();
   EXPECT_EQ(server.receive(), "(scene rsg/agent/nao/nao_hetero.rsg 2)");
@@ -133,7 +134,9 @@ TEST(Play, SendsNoSynIfToldSo) {
 
 TEST(Play, FreesAHangingServer) {
   FakeServer server;
-  Player player(optionsFor(server));
+  PlayOptions options = optionsFor(server);
+  options.wait = 30.0;
+  Player player(options);
   server.accept();
   EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
   int syns = 0;

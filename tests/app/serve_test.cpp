@@ -10,6 +10,7 @@
 #include <asio.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <poll.h>
 
 #include "nonet/math/random.h"
 #include "nonet/protocol/framing.h"
@@ -171,6 +172,70 @@ TEST_F(ServeCommand, TheOthersPlayOnWhenAgentsAreHarmed) {
   EXPECT_GT(report("Theirs3")["messages"], 200);
 }
 
+/// A connection to the server from one of this machine's addresses.
+class Caller {
+ public:
+  Caller(const char* from, const char* to, int port) {
+    socket_.open(tcp::v4());
+    socket_.bind({asio::ip::make_address(from), 0});
+    socket_.connect({asio::ip::make_address(to), static_cast<asio::ip::port_type>(port)}, error_);
+  }
+  bool connected() const { return !error_; }
+  /// Whether the server has closed it, as it does at once with one too many.
+  bool closed() {
+    pollfd descriptor{socket_.native_handle(), POLLIN, 0};
+    if (::poll(&descriptor, 1, 1000) <= 0) return false;
+    char byte = 0;
+    std::error_code error;
+    socket_.read_some(asio::buffer(&byte, 1), error);
+    return static_cast<bool>(error);
+  }
+
+ private:
+  asio::io_context io_;
+  tcp::socket socket_{io_};
+  std::error_code error_;
+};
+
+// The trainer's port obeys anybody, so nobody from outside gets there unasked.
+TEST_F(ServeCommand, ListensForThisMachineOnlyAndSaysSo) {
+  serve({});
+  EXPECT_TRUE(server->says("monitors on port [0-9]+ of 127.0.0.1"));
+  EXPECT_TRUE(Caller("127.0.0.1", "127.0.0.1", port).connected());
+  EXPECT_FALSE(Caller("127.0.0.1", "127.0.0.2", port).connected()) << "another address of this machine";
+
+  Program open({"serve", "--port", "0", "--monitor-port", "0", "--bind", "0.0.0.0"}, folder.file("open.txt"));
+  ASSERT_TRUE(open.says("is obeyed as a trainer")) << open.output();
+  const std::string text = open.output();
+  const int openPort = std::stoi(text.substr(text.find("agents on port ") + 15));
+  EXPECT_TRUE(Caller("127.0.0.1", "127.0.0.2", openPort).connected());
+}
+
+TEST_F(ServeCommand, BoundsConnectionsPerAddressAndInAll) {
+  Program bounded(
+      {"serve", "--port", "0", "--monitor-port", "0", "--most-connections", "5", "--most-per-address", "3"},
+      folder.file("bounded.txt"));
+  ASSERT_TRUE(bounded.says("monitors on port")) << bounded.output();
+  const std::string text = bounded.output();
+  const int agents = std::stoi(text.substr(text.find("agents on port ") + 15));
+  const int monitors = std::stoi(text.substr(text.find("monitors on port ") + 17));
+  for (const int at : {agents, monitors}) {
+    std::vector<std::unique_ptr<Caller>> callers;
+    const auto call = [&](const char* from) -> Caller& {
+      return *callers.emplace_back(std::make_unique<Caller>(from, "127.0.0.1", at));
+    };
+    for (int i = 0; i < 3; ++i) call("127.0.0.1");
+    EXPECT_TRUE(call("127.0.0.1").closed()) << "the fourth of one address";
+    EXPECT_TRUE(call("127.0.0.1").closed());
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(call("127.0.0.2").connected());
+    EXPECT_TRUE(call("127.0.0.3").closed()) << "the sixth in all";
+  }
+  const std::string said = bounded.output();
+  const std::regex refusal("is refused, and more of them: 5 connections are the most, 3 from one address");
+  EXPECT_GE(std::distance(std::sregex_iterator(said.begin(), said.end(), refusal), std::sregex_iterator()),
+            2);
+}
+
 class Scripts : public ServeCommand {
  protected:
   Scripts() {
@@ -221,6 +286,53 @@ TEST_F(Scripts, SayWhatTheyNeed) {
   Program missing(command("startChallengePlayer.sh"), {"127.0.0.1", "3100"}, folder.file("missing.txt"));
   EXPECT_EQ(missing.wait(), 2);
   EXPECT_NE(missing.output().find("HOST PORT X Y CHALLENGE"), std::string::npos);
+}
+
+// Wrong arguments are told before anything is started.
+TEST_F(Scripts, RefuseWhatCannotWork) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+      {"start.sh", {"127.0.0.1", "99999"}},
+      {"start.sh", {"127.0.0.1", "-t", "A/B"}},
+      {"start.sh", {"127.0.0.1", "-t", "A B"}},
+      {"start_penalty_kicker.sh", {"127.0.0.1", "x"}},
+      {"startChallengePlayer.sh", {"127.0.0.1", "3100", "x", "y", "run"}},
+      {"startChallengePlayer.sh", {"127.0.0.1", "3100", "1", "2m", "run"}},
+      {"kill.sh", {"-t"}},
+  };
+  for (const auto& [script, arguments] : cases) {
+    Program program(command(script), arguments, folder.file("refused.txt"));
+    EXPECT_EQ(program.wait(), 2) << script << ": " << program.output();
+    EXPECT_FALSE(program.output().empty());
+  }
+  EXPECT_FALSE(fs::exists(folder.file("logs/pids")));
+}
+
+TEST_F(Scripts, SayWhoDiedAtOnce) {
+  Program program(command("start.sh"), {"127.0.0.1", "-n", "2", "--", "--params", "/nosuch.toml"},
+                  folder.file("died.txt"));
+  EXPECT_EQ(program.wait(), 1) << program.output();
+  EXPECT_NE(program.output().find("2 of 2 agents did not start"), std::string::npos) << program.output();
+  EXPECT_NE(program.output().find("nosuch.toml"), std::string::npos) << "the reason";
+  EXPECT_NE(run("kill.sh", {}).find("stopped 0 agents"), std::string::npos) << "the dead do not count";
+}
+
+TEST_F(Scripts, StopOneTeam) {
+  serve({});
+  for (const std::string team : {"Ours", "Theirs"})
+    run("start.sh", {"127.0.0.1", std::to_string(port), "-t", team, "-n", "1"});
+  EXPECT_NE(run("kill.sh", {"-t", "Theirs"}).find("stopped 1 agents of team Theirs"), std::string::npos);
+  EXPECT_TRUE(server->says("player 1 of Theirs .* is gone"));
+  EXPECT_EQ(server->output().find("player 1 of Ours"), std::string::npos) << server->output();
+  EXPECT_NE(run("kill.sh", {}).find("stopped 1 agents"), std::string::npos);
+}
+
+TEST_F(Scripts, StartThePenaltyPlayers) {
+  serve({});
+  run("start_penalty_kicker.sh", {"127.0.0.1", std::to_string(port), "-t", "Ours"});
+  run("start_penalty_goalie.sh", {"127.0.0.1", "-p", std::to_string(port), "-t", "Theirs"});
+  EXPECT_TRUE(server->says("number 2 of team Ours")) << server->output();
+  EXPECT_TRUE(server->says("number 1 of team Theirs")) << server->output();
+  EXPECT_NE(run("kill.sh", {}).find("stopped 2 agents"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "nonet/config/assignment.h"
+#include "nonet/config/nearest.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
 
@@ -277,6 +279,52 @@ TEST(Parameters, UnitNames) {
   EXPECT_EQ(unitName(Unit::Metre), "m");
   EXPECT_EQ(unitName(Unit::RadianPerSecond), "rad/s");
   EXPECT_EQ(unitName(Unit::MetrePerSecondSquared), "m/s^2");
+}
+
+// One value as people write it; each form once, and what is said to those that fit no form.
+TEST(Parameters, AssignmentsTakeEveryFormOfAValue) {
+  Example example;
+  for (const char* text :
+       {"arms=false", "gain=2", "steps=4", "period=40ms", "swing.angle=17deg", "speed=-0.5"}) {
+    assignParameter(example, text);
+  }
+  EXPECT_FALSE(example.arms);
+  EXPECT_EQ(example.gain, 2.0);
+  EXPECT_EQ(example.steps, 4);
+  EXPECT_EQ(example.period, 0.04);
+  EXPECT_EQ(example.swing.angle, toRadians(17));
+  EXPECT_EQ(example.speed, -0.5);
+  assignParameter(example, "arms=1");
+  EXPECT_TRUE(example.arms);
+}
+
+TEST(Parameters, WrongAssignmentsSayWhatToWrite) {
+  const std::vector<std::pair<const char*, const char*>> cases = {
+      {"arms=2", "arms=2: arms is a switch: use true or false"},
+      {"arms=no", "use true or false"},
+      {"gain", "gain: give it as name=value"},
+      {"gain=fast", "use a number"},
+      {"steps=1.5", "must be a whole number"},
+      {"period=3deg", "use a number in s, or one with a unit: s, ms"},
+      {"gain=11", "out of range"},
+      {"gian=1", "did you mean 'gain'?"},
+  };
+  for (const auto& [text, message] : cases) {
+    Example example;
+    try {
+      assignParameter(example, text);
+      ADD_FAILURE() << text;
+    } catch (const ParameterError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(message));
+    }
+  }
+}
+
+TEST(Nearest, DistanceIsThatOfTheTextbook) {
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3U);  // Levenshtein's usual example
+  EXPECT_EQ(editDistance("", "abc"), 3U);
+  EXPECT_EQ(nearestOf({"match", "serve", "play"}, "mach"), "match");
+  EXPECT_EQ(nearestOf({}, "x"), "");
 }
 
 }  // namespace

@@ -19,18 +19,22 @@ struct AgentChoice {
   std::uint64_t seed = 1;
   bool learned = true;                      // begin with params/type<robotType>.toml
   std::vector<std::string> parameterFiles;  // overlaid in this order
+  std::vector<std::string> assignments;     // single parameters, "team.ball.kick=false", set last
   std::optional<Pose2> startPose;           // own field frame
 };
 
-/// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml if there is one, then
-/// the given files. Throws config::ParameterError. `dataFolder` holds params/ and skills/.
+/// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml, then the given files,
+/// then the assignments. `dataFolder` holds params/ and skills/. Throws config::ParameterError, also if the
+/// file of the type or all skills are missing.
 AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFolder);
 
 /// What the header of a log must hold so that agentFromLog() builds the same agent.
 protocol::LogHeader logHeader(const AgentConfig& config, const std::string& version);
 
-/// The same agent as the one that wrote the header. The start pose stands in a comment of its own.
-AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder);
+/// The same agent as the one that wrote the header of the log `path`. The start pose stands in a comment of
+/// its own. Throws protocol::LogError or config::ParameterError that name `path`.
+AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder,
+                         const std::string& path);
 std::string startComment(const Pose2& start);
 std::optional<Pose2> startFromComment(std::string_view comment);
 

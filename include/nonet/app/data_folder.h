@@ -5,9 +5,15 @@
 
 namespace nonet::app {
 
-/// NONET_DATA if set, otherwise the folder above the executable that holds skills/, otherwise the source tree
-/// the program was built from.
-std::string dataFolder();
+/// The folder with params/ and skills/: `given` (--data) if not empty, otherwise NONET_DATA if set, otherwise
+/// found from the executable (findData()). Throws std::runtime_error that says what is missing and where it
+/// was looked for: without its data an agent would play on, crippled.
+std::string dataFolder(const std::string& given = {});
+
+/// The nearest folder above `executable` that holds params/ and skills/ itself (a source tree, an unpacked
+/// archive) or in share/nonet (an installation); otherwise `sourceFolder` if it does. Throws
+/// std::runtime_error.
+std::string findData(const std::string& executable, const std::string& sourceFolder);
 
 /// Path of the running executable.
 std::string executablePath();

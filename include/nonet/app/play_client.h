@@ -13,7 +13,7 @@ namespace nonet::app {
 enum class PlayExit : int {
   Stopped = 0,   // by SIGINT or SIGTERM
   Error = 1,     // what the server sent makes no sense, or the log cannot be written
-  NoServer = 2,  // nobody listened within the time to wait
+  NoServer = 2,  // nobody listened, or the server said nothing, within the time to wait
   ServerGone = 3,
   Refused = 4,  // the server did not take us into a team
 };
@@ -27,7 +27,7 @@ struct PlayOptions {
   std::string report;   // JSON of what was counted, written at the end; empty: none
   bool rescue = true;   // before the first message, free a lock-step server that hangs
   bool atOnce = false;  // introduce oneself without waiting for other agents of this machine
-  double wait = 30.0;   // s until a server must have answered
+  double wait = 30.0;   // s until a server must have sent its first message
   bool quiet = false;   // only errors
 };
 

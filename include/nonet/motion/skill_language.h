@@ -26,6 +26,15 @@ using ParameterLookup =
 std::vector<Skill> parseSkills(std::string_view text, const std::string& file,
                                const ParameterLookup& lookup = nullptr);
 
+/// What parseSkills() would give, and everything that is wrong: an error in one part of a list (a skill, a
+/// parameter, a statement, a target) does not hide those in the next. Targets of joints outside the limits of
+/// all robot types are errors here. Throws nothing.
+struct SkillCheck {
+  std::vector<Skill> skills;        // as far as they could be read
+  std::vector<std::string> errors;  // "file:line:column: what is wrong", lexical ones first
+};
+SkillCheck checkSkills(std::string_view text, const std::string& file);
+
 /// The same text with normal indentation and spacing; line breaks and comments stay. Throws SkillError if the
 /// text does not parse. Formatting twice gives the same as once.
 std::string formatSkills(std::string_view text, const std::string& file);

@@ -17,10 +17,6 @@ constexpr float kFallenBelow = 0.5F;
 constexpr float kStandingAbove = 0.9F;
 constexpr int kLinger = 50;  // cycles after GameOver, as many as the server plays on
 
-bool running(protocol::PlayMode mode) {
-  return mode != protocol::PlayMode::BeforeKickOff && mode != protocol::PlayMode::GameOver;
-}
-
 struct InProcessPlayer {
   sim::AgentHandle handle = sim::kNoAgent;
   std::unique_ptr<agent::Agent> agent;
@@ -70,6 +66,7 @@ agent::AgentChoice agentChoice(const MatchChoice& choice, bool rightTeam, int un
   agent.robotType = agent::usualRobotType(unum);
   agent.seed = agent::agentSeed(choice.seed, rightTeam, unum);
   agent.parameterFiles = team.parameterFiles;
+  agent.assignments = team.assignments;
   return agent;
 }
 
@@ -107,7 +104,6 @@ void MatchWatcher::update(const sim::Simulation& simulation) {
   result_.scoreRight = match.scoreRight;
   result_.gameTime = match.time;
   result_.finished = match.playMode == protocol::PlayMode::GameOver;
-  if (!firstKickOff_ && running(match.playMode)) firstKickOff_ = match.serverTime;
 
   for (PlayerRecord& player : result_.players) player.gone = player.connected;
   for (const sim::AgentInfo& agent : simulation.agents()) {
@@ -122,9 +118,7 @@ void MatchWatcher::update(const sim::Simulation& simulation) {
     if (up < kFallenBelow && stance == Stance::Standing) ++player->falls;
     if (up < kFallenBelow) stance = Stance::Fallen;
     if (up > kStandingAbove) stance = Stance::Standing;
-    if (firstKickOff_ && player->falls == 0 && result_.finished == false) {
-      player->standingAfterKickOff = match.serverTime - *firstKickOff_;
-    }
+    if (player->falls == 0) player->standingAfterKickOff = match.time;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "nonet/lab/optimize/learned_file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -180,13 +181,17 @@ std::string learnedToml(const agent::AgentParameters& parameters, const agent::A
 }
 
 Measurement measure(const Task& task, const agent::AgentParameters& parameters,
-                    const std::vector<std::uint64_t>& seeds, const TaskSettings& settings, int threads) {
+                    const std::vector<std::uint64_t>& seeds, const TaskSettings& settings, int threads,
+                    const MeasureProgress& progress) {
   std::vector<TaskResult> results(seeds.size());
+  std::atomic<std::size_t> done{0};
+  const std::string name(task.name());
   // The thread evaluator works on numbers, so the "point" says which seed it is.
   const auto evaluator = makeThreadEvaluator(
       [&](const Job& job) {
         TaskResult& result = results[static_cast<std::size_t>(job.point[0])];
         result = task.evaluate(parameters, job.seed, settings);
+        if (progress) progress(name, ++done, seeds.size());
         return result.fitness;
       },
       threads);
@@ -208,7 +213,8 @@ Measurement measure(const Task& task, const agent::AgentParameters& parameters,
   return measurement;
 }
 
-std::vector<Repetition> repeatLearned(const std::string& file, const std::string& dataFolder, int threads) {
+std::vector<Repetition> repeatLearned(const std::string& file, const std::string& dataFolder, int threads,
+                                      const MeasureProgress& progress) {
   agent::AgentParameters parameters = defaultParameters(dataFolder);
   config::overlayFile(parameters, file);
   std::vector<Repetition> repetitions;
@@ -216,7 +222,8 @@ std::vector<Repetition> repeatLearned(const std::string& file, const std::string
     const TaskSettings settings{
         .robotType = origin.robotType, .quickSolver = origin.quickSolver, .dataFolder = dataFolder};
     repetitions.push_back(
-        {origin, measure(findTask(origin.task), parameters, origin.seeds.all(), settings, threads)});
+        {origin,
+         measure(findTask(origin.task), parameters, origin.seeds.all(), settings, threads, progress)});
   }
   return repetitions;
 }

@@ -42,7 +42,29 @@ Eigen::VectorXd vectorFrom(const json& value) {
 json readJson(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(fmt::format("cannot read {}: is this the folder of a run?", path));
-  return json::parse(file);
+  try {
+    return json::parse(file);
+  } catch (const json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: is damaged: {}", path, error.what()));
+  }
+}
+
+/// What cannot make a search. Throws std::runtime_error.
+const OptimizationConfig& checked(const OptimizationConfig& config) {
+  const auto demand = [](bool holds, const char* what, double value) {
+    if (!holds) throw std::runtime_error(fmt::format("{}, not {}", what, value));
+  };
+  constexpr int kSmallestPopulation = 4;  // below it CMA-ES has too few to choose from
+  demand(config.generations >= 1, "generations must be 1 or more", config.generations);
+  demand(config.sigma > 0.0 && config.sigma <= 1.0,
+         "sigma, a share of the search ranges, must be above 0 and at most 1", config.sigma);
+  demand(config.population == 0 || config.population >= kSmallestPopulation,
+         "the population must be 4 or more, or 0 for CMA-ES' default", config.population);
+  demand(config.trials >= 1, "trials must be 1 or more", config.trials);
+  demand(config.validationTrials >= 1, "validation trials must be 1 or more", config.validationTrials);
+  demand(config.validationEvery >= 1, "generations between validations must be 1 or more",
+         config.validationEvery);
+  return config;
 }
 
 // Held until the last copy goes or the process ends, however it ends.
@@ -93,13 +115,20 @@ Eigen::VectorXd rankingFitness(const std::vector<std::vector<double>>& values, s
 
 OptimizationRun::OptimizationRun(std::string folder, const OptimizationConfig& config, std::string dataFolder)
     : folder_(std::move(folder)),
-      config_(config),
+      config_(checked(config)),
       dataFolder_(std::move(dataFolder)),
       space_(config.startParameters(dataFolder_), config.searchedKeys()),
       optimizer_(space_.start(), cmaSettings(config, space_), config.restarts) {
-  if (config.trials < 1 || config.validationTrials < 1 || config.validationEvery < 1)
-    throw std::runtime_error("trials, validation trials and the gap between validations must be at least 1");
   incumbent_.point = space_.start();
+}
+
+OptimizationConfig OptimizationRun::readConfig(const std::string& folder) {
+  const std::string path = folder + kConfig;
+  try {
+    return OptimizationConfig::fromJson(readJson(path));
+  } catch (const json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: is damaged: {}", path, error.what()));
+  }
 }
 
 OptimizationRun OptimizationRun::create(const std::string& folder, const OptimizationConfig& config,
@@ -120,7 +149,7 @@ OptimizationRun OptimizationRun::create(const std::string& folder, const Optimiz
 
 OptimizationRun OptimizationRun::resume(const std::string& folder, const std::string& dataFolder,
                                         std::optional<int> generations) {
-  OptimizationConfig config = OptimizationConfig::fromJson(readJson(folder + kConfig));
+  OptimizationConfig config = readConfig(folder);
   const std::shared_ptr<void> lock = lockFolder(folder);
   if (generations && *generations != config.generations) {
     config.generations = *generations;
@@ -282,7 +311,18 @@ void OptimizationRun::writeCheckpoint() const {
 }
 
 void OptimizationRun::readCheckpoint() {
-  const json state = readJson(folder_ + kCheckpoint);
+  const std::string path = folder_ + kCheckpoint;
+  try {
+    restore(readJson(path));
+  } catch (const json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: is damaged: {}", path, error.what()));
+  }
+  if (incumbent_.point.size() != space_.dimension() || optimizer_.run().dimension() != space_.dimension())
+    throw std::runtime_error(
+        fmt::format("{}: the declared parameters have changed since the run began; start a new one", path));
+}
+
+void OptimizationRun::restore(const json& state) {
   state.at("generation").get_to(generation_);
   state.at("trials").get_to(trials_);
   state.at("bytes").get_to(bytes_);
@@ -293,8 +333,6 @@ void OptimizationRun::readCheckpoint() {
   incumbent.at("values").get_to(incumbent_.values);
   incumbent.at("generation").get_to(incumbent_.generation);
   incumbent.at("budget").get_to(incumbent_.budget);
-  if (incumbent_.point.size() != space_.dimension() || optimizer_.run().dimension() != space_.dimension())
-    throw std::runtime_error("the declared parameters have changed since the run began; start a new one");
 }
 
 Provenance OptimizationRun::origin() const {

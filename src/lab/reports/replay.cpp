@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/config/assignment.h"
 #include "nonet/config/parameters.h"
 #include "nonet/lab/common/statistics.h"
 #include "nonet/protocol/log_file.h"
@@ -113,6 +114,8 @@ class Replay {
         compare(line);
       } else if (line.kind == LogLine::Kind::Truth && options_.truthObserver) {
         options_.truthObserver(line.text);
+      } else if (line.kind == LogLine::Kind::Other) {
+        if (strangers_++ == 0) judgeStranger(line);
       }
     }
     finish();
@@ -176,8 +179,37 @@ class Replay {
         EffectorDifference{line.number, session_.percept().time, std::string(line.text), std::string(answer)};
   }
 
-  void finish() {
+  /// Keeps what can be said about the first line that no log of an agent has.
+  void judgeStranger(const LogLine& line) {
+    const std::string_view text = line.text;
+    const bool binary = std::any_of(text.begin(), text.end(), [](char c) {
+      return static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\r';
+    });
+    const bool monitor = text.starts_with("((") || text.starts_with("(RSG") || text.starts_with("RSG");
+    stranger_ = fmt::format("line {} is {}", line.number,
+                            binary    ? "binary data"
+                            : monitor ? "of a monitor's stream"
+                                      : fmt::format("'{}'", text.substr(0, 40)));
+  }
+
+  void judge() {
     report_.problem = reader_.problem();
+    const bool messages = session_.counts().messages > 0;
+    if (reader_.end() == protocol::LogReader::End::Damaged) {
+      report_.sound = false;
+    } else if (!report_.own && !messages) {
+      report_.sound = false;
+      report_.problem = fmt::format("{}: no log of an agent, which has lines that begin with '<' and '>': {}",
+                                    report_.file, strangers_ > 0 ? stranger_ : "it is empty");
+    } else if (report_.own && strangers_ > 0) {
+      report_.sound = false;
+      report_.problem = fmt::format("{}: damaged, {} lines are neither message nor answer: {}", report_.file,
+                                    strangers_, stranger_);
+    }
+  }
+
+  void finish() {
+    judge();
     report_.counts = session_.counts();
     for (std::size_t i = 0; i < kindCounts_.size(); ++i) {
       report_.perceptors[std::string(perceptorName(static_cast<PerceptKind>(i)))] = kindCounts_[i];
@@ -198,6 +230,8 @@ class Replay {
   agent::Session session_;
   ReplayReport report_;
   std::string written_;
+  long strangers_ = 0;    // lines of no known kind
+  std::string stranger_;  // what the first of them is
   std::array<long, 8> kindCounts_{};
   long landmarks_ = 0;
   long balls_ = 0;
@@ -218,10 +252,15 @@ agent::AgentConfig recordedAgent(const std::string& path, const ReplayOptions& o
   protocol::LogReader reader(path);
   LogLine line;
   if (reader.header()) {
-    agent::AgentConfig config = agent::agentFromLog(*reader.header(), options.dataFolder);
+    if (options.unum || options.team || options.robotType) {
+      throw protocol::LogError(
+          path + ": --unum, --team and --type are for foreign logs; our own say who recorded them");
+    }
+    agent::AgentConfig config = agent::agentFromLog(*reader.header(), options.dataFolder, path);
     while (reader.next(line) && line.kind == LogLine::Kind::Comment) {
       if (const auto start = agent::startFromComment(line.text)) config.startPose = start;
     }
+    for (const std::string& file : options.parameterFiles) config::overlayFile(config.parameters, file);
     return config;
   }
   Identity identity;
@@ -241,7 +280,7 @@ agent::AgentConfig recordedAgent(const std::string& path, const ReplayOptions& o
 
 agent::AgentConfig agentOfLog(const std::string& path, const ReplayOptions& options) {
   agent::AgentConfig config = recordedAgent(path, options);
-  for (const auto& [key, value] : options.parameters) config::setParameter(config.parameters, key, value);
+  for (const std::string& text : options.assignments) config::assignParameter(config.parameters, text);
   return config;
 }
 

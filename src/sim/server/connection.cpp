@@ -5,6 +5,7 @@
 #include <asio/buffer.hpp>
 #include <asio/error.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace nonet::sim {
 
@@ -133,6 +134,11 @@ void Connection::die(const std::string& reason) {
 
 void Connection::close() {
   die("closed by the server");
+}
+
+void Admission::tell(const Connection& newcomer, const char* kind) const {
+  spdlog::warn("server: {} {} is refused, and more of them: {} connections are the most, {} from one address",
+               kind, newcomer.peer(), most_, mostPerAddress_);
 }
 
 }  // namespace nonet::sim

@@ -43,6 +43,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool refused() const { return refused_; }
   bool hasRest() const { return !rest_.empty(); }
   const std::string& peer() const { return peer_; }
+  /// Of the peer, without its port.
+  std::string address() const { return peer_.substr(0, peer_.rfind(':')); }
 
  private:
   void read();
@@ -64,6 +66,35 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool dead_ = false;
   bool refused_ = false;
   std::string reason_;
+};
+
+/// How many connections of one kind may live, in all and from one address.
+class Admission {
+ public:
+  Admission(int most, int mostPerAddress) : most_(most), mostPerAddress_(mostPerAddress) {}
+
+  /// Whether one more may join `links`. Says the first refusal in a row.
+  template <class Links>
+  bool admits(const Links& links, const Connection& newcomer, const char* kind) {
+    int all = 0;
+    int same = 0;
+    for (const auto& link : links) {
+      if (link->connection->dead()) continue;
+      ++all;
+      same += link->connection->address() == newcomer.address() ? 1 : 0;
+    }
+    const bool admitted = all < most_ && same < mostPerAddress_;
+    if (!admitted && !told_) tell(newcomer, kind);
+    told_ = !admitted;
+    return admitted;
+  }
+
+ private:
+  void tell(const Connection& newcomer, const char* kind) const;
+
+  int most_;
+  int mostPerAddress_;
+  bool told_ = false;
 };
 
 }  // namespace nonet::sim

@@ -5,8 +5,11 @@
 namespace nonet::sim {
 
 Monitors::Monitors(asio::io_context& io, Simulation& simulation, const std::string& address,
-                   std::uint16_t port)
-    : simulation_(simulation), acceptor_(listenOn(io, address, port, "monitors")), stream_(simulation) {
+                   std::uint16_t port, const Admission& admission)
+    : simulation_(simulation),
+      acceptor_(listenOn(io, address, port, "monitors")),
+      admission_(admission),
+      stream_(simulation) {
   accept();
 }
 
@@ -16,6 +19,10 @@ void Monitors::accept() {
     if (!error) {
       auto link = std::make_unique<Link>();
       link->connection = std::make_shared<Connection>(std::move(socket));
+      if (!admission_.admits(links_, *link->connection, "monitor")) {
+        link->connection->close();
+        return accept();
+      }
       Link& added = *link;
       links_.push_back(std::move(link));
       spdlog::info("server: monitor {} connected", added.connection->peer());

@@ -19,8 +19,10 @@ namespace nonet::sim {
 
 class Monitors {
  public:
-  /// Listens on this port and accepts whoever comes while `io` runs. Both references must outlive this.
-  Monitors(asio::io_context& io, Simulation& simulation, const std::string& address, std::uint16_t port);
+  /// Listens on this port and accepts whoever comes, as far as `admission` allows, while `io` runs. Both
+  /// references must outlive this.
+  Monitors(asio::io_context& io, Simulation& simulation, const std::string& address, std::uint16_t port,
+           const Admission& admission);
   Monitors(const Monitors&) = delete;
   Monitors& operator=(const Monitors&) = delete;
 
@@ -45,6 +47,7 @@ class Monitors {
 
   Simulation& simulation_;
   asio::ip::tcp::acceptor acceptor_;
+  Admission admission_;
   std::vector<std::unique_ptr<Link>> links_;
   MonitorStream stream_;
 };

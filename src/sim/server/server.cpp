@@ -22,7 +22,8 @@ Server::Implementation::Implementation(const Settings& settings, std::uint64_t s
       simulation(settings, s),
       work(asio::make_work_guard(io)),
       agentAcceptor(listenOn(io, o.address, o.agentPort, "agents")),
-      monitors(io, simulation, o.address, o.monitorPort),
+      admission(o.mostConnections, o.mostPerAddress),
+      monitors(io, simulation, o.address, o.monitorPort, Admission(o.mostConnections, o.mostPerAddress)),
       signals(io),
       lobbyOpen(o.players > 0) {
   if (!o.monitorLog.empty()) log.emplace(simulation, o.monitorLog);

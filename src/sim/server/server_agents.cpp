@@ -29,6 +29,11 @@ void Server::Implementation::acceptAgents() {
     if (!error) {
       auto link = std::make_unique<AgentLink>();
       link->connection = std::make_shared<Connection>(std::move(socket));
+      if (!admission.admits(agents, *link->connection, "agent")) {
+        link->connection->close();
+        ++statistics.refused;
+        return acceptAgents();
+      }
       AgentLink& added = *link;
       agents.push_back(std::move(link));
       ++statistics.accepted;

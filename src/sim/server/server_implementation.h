@@ -80,6 +80,7 @@ struct Server::Implementation {
   asio::io_context io;
   asio::executor_work_guard<asio::io_context::executor_type> work;
   asio::ip::tcp::acceptor agentAcceptor;
+  Admission admission;
   Monitors monitors;
   asio::signal_set signals;
   std::vector<std::unique_ptr<AgentLink>> agents;

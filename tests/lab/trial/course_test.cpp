@@ -12,7 +12,7 @@ namespace {
 
 agent::AgentParameters initialParameters() {
   agent::AgentParameters parameters;
-  parameters.motion.skills = motion::declareSkillParameters(std::string(NONET_SOURCE_DIR) + "/skills");
+  parameters.motion.skills = motion::declareSkillParameters(NONET_SOURCE_DIR "/skills");
   return parameters;
 }
 
@@ -34,7 +34,7 @@ TaskSettings quickSettings() {
 TrialSetup setupOf(const agent::AgentParameters& parameters, std::uint64_t seed) {
   TrialSetup setup;
   setup.motion = parameters.motion;
-  setup.skillFolder = std::string(NONET_SOURCE_DIR) + "/skills";
+  setup.skillFolder = NONET_SOURCE_DIR "/skills";
   setup.seed = seed;
   setup.physics.solver = sim::WorldSettings::Solver::Quick;
   return setup;

@@ -23,12 +23,13 @@ struct TeamChoice {
   std::string name;
   int players = 9;  // numbers 1 to players; 0: the team stays away
   std::vector<std::string> parameterFiles;
-  std::string dataFolder;  // with params/ and skills/; empty: the program's own
+  std::string dataFolder;                // with params/ and skills/; empty: the program's own
+  std::vector<std::string> assignments;  // single parameters, set last
 };
 
 struct MatchChoice {
-  TeamChoice left{"Nonet", 9, {}, {}};
-  TeamChoice right{"Guests", 9, {}, {}};
+  TeamChoice left{"Nonet", 9, {}, {}, {}};
+  TeamChoice right{"Guests", 9, {}, {}, {}};
   std::uint64_t seed = 1;
   double minutes = 10.0;   // of game time in all, two halves
   double kickOffWait = 5;  // s of simulated time before each half, to take one's place
@@ -52,11 +53,10 @@ struct PlayerRecord {
   std::string team;
   int unum = 0;
   int robotType = 0;
-  bool connected = false;  // came to play at all
-  bool gone = false;       // left before the end
-  int falls = 0;           // times it lay down, whoever was to blame
-  double standingAfterKickOff =
-      0;  // s of simulated time from the first kick-off to the first fall, or to the end
+  bool connected = false;           // came to play at all
+  bool gone = false;                // left before the end
+  int falls = 0;                    // times it lay down, whoever was to blame
+  double standingAfterKickOff = 0;  // s on the game's clock until the first fall, or until the end
   // From the agent's own report.
   long messages = 0;
   long passedOver = 0;  // messages answered too late: a newer one was there already
@@ -108,8 +108,7 @@ class MatchWatcher {
   PlayerRecord* find(bool rightTeam, int unum);
 
   MatchResult result_;
-  std::vector<Stance> stances_;         // beside result_.players
-  std::optional<double> firstKickOff_;  // server time, s
+  std::vector<Stance> stances_;  // beside result_.players
   std::optional<sim::Invariants> invariants_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,14 +52,18 @@ struct Measurement {
   double standardError = 0.0;
   std::vector<std::pair<std::string, double>> measures;
 };
+/// Called after each trial with those that are done and all; from any thread.
+using MeasureProgress = std::function<void(const std::string& task, std::size_t done, std::size_t all)>;
 Measurement measure(const Task& task, const agent::AgentParameters& parameters,
-                    const std::vector<std::uint64_t>& seeds, const TaskSettings& settings, int threads);
+                    const std::vector<std::uint64_t>& seeds, const TaskSettings& settings, int threads,
+                    const MeasureProgress& progress = {});
 
 /// Measures a learned file again with the seeds of its provenance, one entry per task.
 struct Repetition {
   Provenance recorded;
   Measurement repeated;
 };
-std::vector<Repetition> repeatLearned(const std::string& file, const std::string& dataFolder, int threads);
+std::vector<Repetition> repeatLearned(const std::string& file, const std::string& dataFolder, int threads,
+                                      const MeasureProgress& progress = {});
 
 }  // namespace nonet::lab

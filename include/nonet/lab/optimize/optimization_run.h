@@ -25,9 +25,12 @@ struct GenerationReport {
 
 class OptimizationRun {
  public:
-  /// A new run; throws std::runtime_error if the folder holds one already or another process works on it.
+  /// A new run; throws std::runtime_error if the folder holds one already, another process works on it, or
+  /// the config makes no search (a step size of 0, a population of 1).
   static OptimizationRun create(const std::string& folder, const OptimizationConfig& config,
                                 const std::string& dataFolder);
+  /// What the run in the folder was started with. Throws std::runtime_error that names the file.
+  static OptimizationConfig readConfig(const std::string& folder);
   /// Continues the one in the folder; `generations` extends it. Throws std::runtime_error.
   static OptimizationRun resume(const std::string& folder, const std::string& dataFolder,
                                 std::optional<int> generations);
@@ -56,6 +59,7 @@ class OptimizationRun {
   void appendLine(const std::string& text);
   void writeCheckpoint() const;
   void readCheckpoint();
+  void restore(const nlohmann::json& state);
   void writeBest() const;
   Provenance origin() const;
 

@@ -25,9 +25,9 @@ struct ReplayOptions {
   std::optional<int> unum;
   std::optional<std::string> team;
   std::optional<int> robotType;
+  // For our own logs too; their answers then differ.
   std::vector<std::string> parameterFiles;
-  /// Single parameters by their full keys, set last, in our own logs too (their answers then differ).
-  std::vector<std::pair<std::string, double>> parameters;
+  std::vector<std::string> assignments;  // single parameters, "world.useLines=0", set last
   /// Called after each message, with the agent stepped; for measurements.
   std::function<void(const agent::Session&)> observer;
   /// Called with each line of ground truth (JSON) that belongs to the message observed last.
@@ -51,7 +51,8 @@ struct EffectorDifference {
 struct ReplayReport {
   std::string file;
   bool own = false;     // written by our program: the answers are compared
-  std::string problem;  // a torn or damaged end, in a sentence
+  std::string problem;  // a torn or damaged end, or why this is no log, in a sentence
+  bool sound = true;    // false: damaged, or no log at all. A torn end is sound, killed agents leave it.
   agent::SessionCounts counts;
   long roundtripDifferences = 0;  // messages that come out differently when written back
   long effectorDifferences = 0;   // answers that differ from the recorded ones (own logs)
@@ -72,8 +73,8 @@ struct ReplayReport {
   std::string toText() const;
 };
 
-/// Throws protocol::LogError if the file cannot be read, config::ParameterError if its parameters make no
-/// sense.
+/// Throws protocol::LogError that names the file if it cannot be read or its header makes no sense,
+/// config::ParameterError for wrong options.
 ReplayReport replay(const std::string& path, const ReplayOptions& options);
 
 /// The agent's configuration as the log tells it. Throws protocol::LogError.

@@ -14,9 +14,12 @@
 namespace nonet::sim {
 
 struct ServerOptions {
-  std::string address = "0.0.0.0";  // to listen on
-  std::uint16_t agentPort = 3100;   // 0: any free one, see Server::agentPort()
+  /// To listen on: this machine only, since whoever reaches the trainer's port is obeyed.
+  std::string address = "127.0.0.1";
+  std::uint16_t agentPort = 3100;  // 0: any free one, see Server::agentPort()
   std::uint16_t monitorPort = 3200;
+  int mostConnections = 64;  // of agents, and as many of monitors and trainers; one more is closed at once
+  int mostPerAddress = 32;   // of these from one address, so that no machine can take all places
   bool lockStep = false;  // each cycle waits for the answer, ended by (syn), of every agent that has a robot
   bool realTime = true;   // never faster than 20 ms per cycle; a cycle that takes longer slows the match down
   /// Lock-step: an agent that does not answer for so long is no longer waited for, until it answers again.
@@ -55,7 +58,7 @@ class Server {
   struct Statistics {
     int accepted = 0;
     int lost = 0;              // vanished or closed by the agent
-    int refused = 0;           // closed by the server: oversize messages
+    int refused = 0;           // closed by the server: oversize messages, or one connection too many
     long droppedMessages = 0;  // sense and monitor messages that a slow reader did not get
     int timeouts = 0;          // lock-step: times that an agent was given up waiting for
     int skippedExpressions = 0;

@@ -1,0 +1,121 @@
+// The program as it is installed: elsewhere, in a folder with blanks, read-only, run by somebody else.
+#include <fstream>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/program.h"
+
+namespace nonet::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Exit code and output of a shell command.
+std::pair<int, std::string> shell(const TestFolder& folder, const std::string& command) {
+  Program program("/bin/sh", {"-c", command}, folder.file("shell.txt"));
+  const int code = program.wait();
+  return {code, program.output()};
+}
+
+class Installed : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto [code, output] =
+        shell(folder, "cmake --install '" + fs::path(NONET_BINARY).parent_path().string() + "' --prefix '" +
+                          prefix + "' && chmod -R a-w,a+rX '" + prefix + "' && mkdir -m 777 '" +
+                          folder.file("work") + "'");
+    ASSERT_EQ(code, 0) << output;
+  }
+  ~Installed() override { shell(folder, "chmod -R u+w '" + prefix + "'"); }
+  /// As somebody who owns nothing of it, if this test runs as root.
+  std::pair<int, std::string> asNobody(const std::string& command) {
+    const std::string other = ::geteuid() == 0 ? "setpriv --reuid 65534 --regid 65534 --clear-groups " : "";
+    return shell(folder, "cd '" + folder.file("work") + "' && " + other +
+                             "env -u NONET_DATA HOME=/nonexistent " + "TMPDIR='" + folder.file("work") +
+                             "' " + command);
+  }
+
+  TestFolder folder{"nonet installed here"};
+  std::string prefix = folder.file("a folder/nonet");
+  std::string binary = "'" + prefix + "/bin/nonet' ";
+};
+
+TEST_F(Installed, PlaysWithItsOwnData) {
+  const auto [listed, parameters] = asNobody(binary + "params --type 4");
+  EXPECT_EQ(listed, 0) << parameters;
+  EXPECT_THAT(parameters, HasSubstr("from " + prefix + "/share/nonet/params/type4.toml"));
+  EXPECT_THAT(parameters, Not(HasSubstr(std::string("from ") + NONET_SOURCE_DIR)));
+  const auto [played, match] = asNobody(
+      binary + "match --players 2 --minutes 0.05 --kick-off-wait 0.5 --seed 3 --json match.json --logs logs");
+  EXPECT_EQ(played, 0) << match;
+  std::ifstream file(folder.file("work/match.json"));
+  const std::string json{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(json, HasSubstr("\"flawless\": true"));
+}
+
+TEST_F(Installed, ItsScriptsStartAndStopAgents) {
+  Program server({"serve", "--port", "0", "--monitor-port", "0"}, folder.file("server.txt"));
+  ASSERT_TRUE(server.says("agents on port "));
+  const std::string text = server.output();
+  const std::string port = std::to_string(std::stoi(text.substr(text.find("agents on port ") + 15)));
+  const std::string scripts = "'" + prefix + "/share/nonet/scripts/";
+  const auto [started, output] = asNobody(scripts + "start.sh' 127.0.0.1 " + port + " -t Ours -n 2");
+  EXPECT_EQ(started, 0) << output;
+  EXPECT_TRUE(server.says("number 2 of team Ours")) << server.output();
+  EXPECT_THAT(asNobody(scripts + "kill.sh'").second, HasSubstr("stopped 2 agents"));
+}
+
+TEST(Version, NamesTheCommit) {
+  const TestFolder folder("nonet_version");
+  Program program({"--version"}, folder.file("version.txt"));
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_TRUE(std::regex_search(program.output(),
+                                std::regex("^nonet [0-9]+\\.[0-9]+\\.[0-9]+, commit ([0-9a-f]{7,}|unknown)")))
+      << program.output();
+}
+
+class Params : public testing::Test {
+ protected:
+  std::pair<int, std::string> list(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "params");
+    Program program(arguments, folder.file("params.txt"));
+    const int code = program.wait();
+    return {code, program.output()};
+  }
+  TestFolder folder{"nonet_params"};
+};
+
+TEST_F(Params, TellsWhereEachValueComesFrom) {
+  // The same value again: the file has said it all the same.
+  std::ofstream(folder.file("mine.toml")) << "[world]\nusePoseFit = true\nuseLines = false\n";
+  const std::string type = NONET_SOURCE_DIR "/params/type2.toml";
+  const auto [code, all] =
+      list({"--type", "2", "--params", folder.file("mine.toml"), "--set", "world.useParticleFilter=false"});
+  EXPECT_EQ(code, 0);
+  const auto says = [&text = all](const std::string& pattern) {
+    return std::regex_search(text, std::regex(pattern));
+  };
+  EXPECT_TRUE(says("world.usePoseFit = true\n +range true or false, search -, from [^\n]*mine.toml"));
+  EXPECT_TRUE(says("world.useLines = false \\(default true\\)\n[^\n]*from [^\n]*mine.toml"));
+  EXPECT_TRUE(says("world.useParticleFilter = false \\(default true\\)\n[^\n]*from --set"));
+  EXPECT_THAT(all, HasSubstr(", from " + type));
+  EXPECT_TRUE(says("\nworld.[^\n]*\n[^\n]*from code"));
+  EXPECT_TRUE(says("motion.skills.[^\n]*\n[^\n]*from [^\n]*(skills|toml)"));
+}
+
+TEST_F(Params, FindsByWordAndByDifference) {
+  const auto [found, lines] = list({"--grep", "usePoseFit"});
+  EXPECT_EQ(found, 0);
+  EXPECT_THAT(lines, HasSubstr("\n1 of "));
+  EXPECT_EQ(list({"--grep", "nothing is called so"}).first, 1);
+  const auto [differ, some] = list({"--diff", "--grep", "world.use", "--set", "world.useLines=false"});
+  EXPECT_EQ(differ, 0);
+  EXPECT_THAT(some, HasSubstr("world.useLines = false (default true)"));
+  EXPECT_THAT(some, Not(HasSubstr("usePoseFit")));
+}
+
+}  // namespace
+}  // namespace nonet::app

@@ -1,0 +1,159 @@
+// `nonet play` where the machine is slow, the server silent or the disk full.
+#include <chrono>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/fake_server.h"
+#include "app/program.h"
+
+namespace nonet::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+class PlayFaults : public testing::Test {
+ protected:
+  std::unique_ptr<Program> play(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(),
+                     {"play", "--port", std::to_string(server.port()), "--unum", "3", "--team", "Test"});
+    return std::make_unique<Program>(arguments, folder.file("play.txt"));
+  }
+  /// The process sleeps, as under load, until both its timer is due and a message is there.
+  void wakeUpTo(const Program& program, const std::string& message) {
+    ::kill(program.pid(), SIGSTOP);
+    int status = 0;
+    ASSERT_EQ(::waitpid(program.pid(), &status, WUNTRACED), program.pid());
+    ASSERT_TRUE(WIFSTOPPED(status));
+    while (server.receive(0.05)) continue;  // what it had sent before
+    server.send(message);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    ::kill(program.pid(), SIGCONT);
+  }
+
+  TestFolder folder{"nonet_play_faults"};
+  FakeServer server;
+};
+
+// The first message and the timer that watches for silence come together: the robot must introduce itself and
+// from then on only answer, on the first connection and on one made anew.
+TEST_F(PlayFaults, AMessageThatComesWithTheTimerEndsTheWatchForSilence) {
+  const auto program = play({});
+  server.accept();
+  EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
+  wakeUpTo(*program, standingMessage(1.0));
+  EXPECT_THAT(server.receive().value_or(""), StartsWith("(init (unum 3)"));
+  EXPECT_EQ(server.receive(1.0), std::nullopt) << "it still watches for silence";
+  server.close();
+  EXPECT_EQ(program->wait(), 3);
+}
+
+TEST_F(PlayFaults, SoDoesItOnALaterConnection) {
+  const auto program = play({});
+  server.accept();
+  while (server.receive()) continue;  // silence, until it connects anew
+  server.accept();
+  EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
+  wakeUpTo(*program, standingMessage(1.0));
+  EXPECT_THAT(server.receive().value_or(""), StartsWith("(init (unum 3)"));
+  EXPECT_EQ(server.receive(1.0), std::nullopt) << "it still watches for silence";
+  server.send(standingMessage(1.02, "(unum 3) (team left) "));
+  EXPECT_TRUE(server.receive().has_value());
+  server.close();
+  EXPECT_EQ(program->wait(), 3);
+  EXPECT_TRUE(program->says("as Test 3"));
+}
+
+TEST_F(PlayFaults, WaitsAsLongAsToldForAServer) {
+  int port = 0;
+  {
+    const FakeServer gone;
+    port = gone.port();
+  }
+  const auto begin = Clock::now();
+  Program program({"play", "--port", std::to_string(port), "--wait", "2"}, folder.file("none.txt"));
+  EXPECT_EQ(program.wait(), 2);
+  EXPECT_GE(secondsSince(begin), 2.0);
+  EXPECT_LT(secondsSince(begin), 3.5);
+  EXPECT_THAT(program.output(), HasSubstr("after 2.0 s"));
+}
+
+TEST_F(PlayFaults, WaitsNoLongerForASilentServer) {
+  const auto begin = Clock::now();
+  const auto program = play({"--wait", "1"});
+  server.accept();
+  EXPECT_EQ(program->wait(), 2);
+  EXPECT_LT(secondsSince(begin), 3.0);
+  EXPECT_THAT(program->output(), HasSubstr("no message from the server"));
+}
+
+TEST_F(PlayFaults, SaysAtOnceThatTheReportCannotBeWritten) {
+  for (const std::string& place : {folder.file(""), std::string("/proc/none/report.json")}) {
+    const auto program = play({"--report", place, "--wait", "20"});
+    EXPECT_EQ(program->wait(), 1);
+    EXPECT_THAT(program->output(), HasSubstr("--report " + place + ": cannot be written"));
+  }
+}
+
+TEST_F(PlayFaults, SaysThatTheDiskIsFullWhenItIsAndPlaysOn) {
+  const auto program = play({"--record", "/dev/full"});
+  server.accept();
+  server.receive();
+  server.send(standingMessage(1.0));
+  EXPECT_THAT(server.receive().value_or(""), StartsWith("(init (unum 3)"));
+  EXPECT_TRUE(program->says("/dev/full: recording stops.*No space left")) << program->output();
+  server.send(standingMessage(1.02));
+  EXPECT_TRUE(server.receive().has_value());
+  server.close();
+  EXPECT_EQ(program->wait(), 3);
+  const std::string output = program->output();
+  EXPECT_EQ(output.find("recording stops"), output.rfind("recording stops")) << "said once";
+}
+
+TEST(CommandLine, WrongOptionsEndWithOne) {
+  const TestFolder folder("nonet_options");
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"play", "--port", "99999"},
+                                                {"play", "--nosuch"},
+                                                {"match", "--seed", "x"},
+                                                {"nosuchcommand"},
+                                                {}}) {
+    Program program(wrong, folder.file("options.txt"));
+    EXPECT_EQ(program.wait(), 1) << program.output();
+  }
+  Program help({"--help"}, folder.file("help.txt"));
+  EXPECT_EQ(help.wait(), 0);
+}
+
+TEST(CommandLine, AMisspelledCommandGetsAHint) {
+  const TestFolder folder("nonet_hint");
+  Program program({"mach", "--minutes", "1"}, folder.file("hint.txt"));
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.output(), HasSubstr("there is no command 'mach': did you mean 'match'?"));
+}
+
+TEST(CommandLine, EveryCommandIsInTheReadme) {
+  const TestFolder folder("nonet_commands");
+  Program help({"--help"}, folder.file("help.txt"));
+  EXPECT_EQ(help.wait(), 0);
+  std::ifstream file(NONET_SOURCE_DIR "/README.md");
+  const std::string readme{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = help.output();
+  const std::string list = text.substr(text.find("Subcommands:"));
+  const std::regex name("\n  ([a-z-]+) ");
+  int commands = 0;
+  for (std::sregex_iterator command(list.begin(), list.end(), name), end; command != end;
+       ++command, ++commands) {
+    EXPECT_THAT(readme, HasSubstr("`nonet " + (*command)[1].str() + "`"));
+  }
+  EXPECT_GE(commands, 12);
+}
+
+}  // namespace
+}  // namespace nonet::app
