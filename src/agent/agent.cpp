@@ -25,6 +25,7 @@ struct Agent::Stages {
   const world::WorldState* world = nullptr;
   world::WorldState unknown;  // before the first message
   protocol::Effectors effectors;
+  team::Intent intent;
   bool asked = false;
 };
 
@@ -52,9 +53,10 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
   }
 
   s.world = &s.worldModel.update(percept);
-  team::Intent intent = s.behavior.update(*s.world, s.motion.state());
+  s.intent = s.behavior.update(*s.world, s.motion.state());
+  const team::Intent& intent = s.intent;
   if (intent.beam) {
-    if (s.config.startPose) intent.beam = s.config.startPose;
+    if (s.config.startPose) s.intent.beam = s.config.startPose;
     effectors.beam = intent.beam;
     s.worldModel.expectBeam(*intent.beam);
     s.motion.expectPutDown();
@@ -71,6 +73,9 @@ const world::WorldState& Agent::world() const {
 }
 team::Role Agent::role() const {
   return stages_->behavior.role();
+}
+const team::Intent& Agent::intent() const {
+  return stages_->intent;
 }
 const AgentConfig& Agent::config() const {
   return stages_->config;

@@ -15,6 +15,7 @@ int run(int argc, char** argv) {
   nonet::app::addMatchCommand(app, exitCode);
   nonet::app::addSeriesCommand(app, exitCode);
   nonet::app::addStatisticsCommand(app, exitCode);
+  nonet::app::addExplainCommand(app, exitCode);
   nonet::app::addViewCommand(app, exitCode);
   nonet::app::addReplayCommand(app, exitCode);
   nonet::app::addFidelityCommand(app, exitCode);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <thread>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/tcp_match.h"
+#include "nonet/app/trace_file.h"
 #include "nonet/lab/reports/match_localization.h"
 
 namespace nonet::app {
@@ -25,6 +28,14 @@ struct MatchArguments {
   std::vector<std::string> assignments;
 };
 
+void addTrace(const std::string& folder, const lab::Thought& thought, std::unique_ptr<TraceFile>& file) {
+  if (!file) {
+    const agent::AgentConfig& config = thought.agent.config();
+    file = std::make_unique<TraceFile>(fmt::format("{}/{}_{}.trace", folder, config.team, config.unum));
+  }
+  file->add(thought.agent);
+}
+
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
                           lab::MatchLocalization& localization) {
   const lab::MatchChoice& match = arguments.options.match;
@@ -38,9 +49,12 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
     if (arguments.localization) localization.afterCycle(simulation);
     return true;
   };
-  if (arguments.localization) {
-    observers.afterThought = [&](const lab::Thought& thought) { localization.afterThought(thought); };
-  }
+  std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
+  observers.afterThought = [&](const lab::Thought& thought) {
+    if (arguments.localization) localization.afterThought(thought);
+    if (!arguments.options.traces.empty())
+      addTrace(arguments.options.traces, thought, traces[thought.handle]);
+  };
   lab::MatchResult result = lab::playInProcess(match, dataFolder(), threads, observers);
   console.end();
   return result;
@@ -54,6 +68,8 @@ int runMatch(MatchArguments& arguments) {
   for (const std::string& assignment : arguments.assignments) match.settings.setAssignment(assignment);
   if (match.left.name == match.right.name)
     throw std::runtime_error("--left and --right must be different names");
+
+  if (!arguments.options.traces.empty()) std::filesystem::create_directories(arguments.options.traces);
 
   Console console;
   lab::MatchLocalization localization;
@@ -105,7 +121,13 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
   CLI::Option* logs =
       command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
-  command->add_option("--monitor-log", match.monitorLog, "Record the monitor stream, for RoboViz");
+  command->add_option(
+      "--trace", options.traces,
+      "Folder for one decision trace per agent: what it believes and wants, for `nonet view`");
+  command->add_option(
+      "--monitor-log", match.monitorLog,
+      "Record the monitor stream for `nonet view` (zstd; plain, for RoboViz, if the name ends "
+      "in .log)");
   command->add_option("--port", options.port, "Port for agents, 0: any free one")->capture_default_str();
   command->add_option("--monitor-port", options.monitorPort, "Port for monitors, 0: any free one")
       ->capture_default_str();

@@ -51,6 +51,8 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--type", choice.robotType, "Robot type")
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
+  command->add_option("--trace", play.trace,
+                      "Write what the agent believes and wants in each cycle (JSON lines, zstd)");
   command->add_option("--record", play.record, "Write a log for `nonet replay` (compressed with zstd)");
   command
       ->add_option("--sync", arguments->sync,

@@ -10,6 +10,7 @@
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
 #include "nonet/team/formation.h"
+#include "nonet/team/intent.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::agent {
@@ -39,6 +40,8 @@ class Agent {
   /// What it believes, for measurements and drawings.
   const world::WorldState& world() const;
   team::Role role() const;
+  /// What it wanted in the last cycle.
+  const team::Intent& intent() const;
   const AgentConfig& config() const;
 
  private:
