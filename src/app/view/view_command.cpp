@@ -9,6 +9,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/view/http_server.h"
 #include "nonet/app/view/live_monitor.h"
+#include "nonet/app/view/trace_folder.h"
 #include "nonet/app/view/track.h"
 #include "nonet/app/view/web_files.h"
 
@@ -22,6 +23,7 @@ constexpr double kLiveStep = 0.04;  // s between two messages of a server (facts
 
 struct ViewArguments {
   std::string source;
+  std::string traces;  // folder; empty: none
   std::uint16_t port = kDefaultPort;
 };
 
@@ -65,6 +67,10 @@ class Viewer {
       }
       live_.emplace(io_, source_.substr(0, colon), source_.substr(colon + 1), track_);
     }
+    if (!arguments.traces.empty()) {
+      traces_.emplace(arguments.traces);
+      fmt::print("view: traces of {} robots\n", traces_->size());
+    }
     server_.emplace(io_, arguments.port, [this](const HttpRequest& request) { return answer(request); });
   }
 
@@ -84,6 +90,9 @@ class Viewer {
       return {200, "application/octet-stream",
               track_.message(request.number("from"), request.number("events"), source_, state)};
     }
+    if (request.path == "/trace") {
+      return {200, "application/json", traces_ ? traces_->cycles(request.number("slot")) : "[]"};
+    }
     if (request.path == "/shapes") return {200, "application/json", robotShapes().dump()};
     if (request.path.starts_with(kThree)) return threeFile(request.path.substr(kThree.size() - 1));
     return ownFile(request.path);
@@ -92,6 +101,7 @@ class Viewer {
   asio::io_context io_;
   Track track_;
   std::string source_;
+  std::optional<TraceFolder> traces_;
   std::optional<LiveMonitor> live_;
   std::optional<HttpServer> server_;
 };
@@ -115,6 +125,11 @@ void addViewCommand(CLI::App& app, int& exitCode) {
       ->add_option("source", arguments->source,
                    "A monitor log (nonet match --monitor-log FILE), or HOST:PORT of a server's monitor port")
       ->required();
+  command
+      ->add_option("--trace", arguments->traces,
+                   "Folder of decision traces (nonet match --trace): draws what the followed robot believes "
+                   "beside the truth and lists why it acts")
+      ->check(CLI::ExistingDirectory);
   command->add_option("--port", arguments->port, "Port of the page on this machine, 0: any free one")
       ->capture_default_str();
   command->footer(

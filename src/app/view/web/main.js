@@ -1,10 +1,12 @@
 // The player: fetches the match, keeps the time, and shows the state at that time.
 // Address: ?t=SECONDS&paused=1&speed=2&camera=above&follow=left7 opens the page in that state.
 import * as THREE from '/three/build/three.module.js';
+import {Belief} from './belief.js';
 import {Cameras} from './cameras.js';
 import {Robots} from './robots.js';
 import {Stage, kTeamColors} from './stage.js';
 import {Timeline, clockText} from './timeline.js';
+import {escapeHtml, table} from './text.js';
 import {Track, slotName} from './track.js';
 
 const kPollInterval = 200;   // ms between two questions for news
@@ -50,6 +52,7 @@ class Player {
     this.stage = new Stage(byId('stage'), this.track.header.field);
     this.robots = new Robots(this.stage.scene, shapes);
     this.cameras = new Cameras(this.stage);
+    this.belief = new Belief(this.stage.scene);
     this.timeline = new Timeline(byId('timeline'), byId('tip'), this.track, place => this.seek(place));
     this.listen();
     this.openAs(new URLSearchParams(location.search));
@@ -213,11 +216,12 @@ class Player {
     this.stage.showBall(this.track, this.place, byId('trail').checked);
     this.robots.show(this.track, this.place, {
       labels: byId('labels').checked, followed: this.followed, hidden, eye: this.stage.camera.position});
+    const trace = this.belief.show(this.track, this.place, this.followed);
     this.cameras.update(seconds, this.robots, this.followed);
     if (this.hasChanged()) this.stage.render();
     this.timeline.draw(this.place);
     this.showBoard();
-    if (this.followed >= 0) this.showFollowed();
+    if (this.followed >= 0) this.showFollowed(trace);
     document.body.dataset.state = 'ready';
   }
 
@@ -225,7 +229,7 @@ class Player {
   hasChanged() {
     const {camera, renderer} = this.stage;
     const {clientWidth, clientHeight} = renderer.domElement;
-    const seen = [this.place, this.followed, byId('labels').checked, byId('trail').checked, clientWidth, clientHeight,
+    const seen = [this.place, this.followed, this.belief.version, byId('labels').checked, byId('trail').checked, clientWidth, clientHeight,
                   camera.fov, ...camera.position.toArray(), ...camera.quaternion.toArray()].join();
     const changed = seen !== this.seen;
     this.seen = seen;
@@ -245,7 +249,7 @@ class Player {
     Object.assign(document.body.dataset, {score: `${game.left}:${game.right}`, time: game.time.toFixed(2)});
   }
 
-  showFollowed() {
+  showFollowed(trace) {
     const {side, unum} = slotName(this.followed);
     const type = this.track.robotType(this.place, this.followed);
     const team = this.track.header.teams[side - 1] || ['Left', 'Right'][side - 1];
@@ -268,7 +272,7 @@ class Player {
                 ['posture', up.z > 0.8 ? 'upright' : up.z > 0.5 ? 'leans' : 'down']);
     }
     const html = `<h1><i style="background:${kTeamColors[side - 1]}"></i>${escapeHtml(team)} ${unum}` +
-      `${type >= 0 ? ` <small>type ${type}</small>` : ''}<button title="Escape">✕</button></h1>${table(rows)}`;
+      `${type >= 0 ? ` <small>type ${type}</small>` : ''}<button title="Escape">✕</button></h1>${table(rows)}${trace ? this.belief.html(trace, this.track, this.place, this.followed) : ''}`;
     if (html === this.shownFollowed) return;
     this.shownFollowed = html;
     byId('followed').innerHTML = html;
@@ -288,14 +292,6 @@ class Player {
 
 function setText(id, text) {
   if (byId(id).textContent !== text) byId(id).textContent = text;
-}
-
-function escapeHtml(text) {
-  return text.replace(/[&<>"]/g, sign => `&#${sign.charCodeAt(0)};`);
-}
-
-function table(rows) {
-  return `<table>${rows.map(([name, value]) => `<tr><td>${name}</td><td>${escapeHtml(value)}</td></tr>`).join('')}</table>`;
 }
 
 new Player().start().catch(fail);

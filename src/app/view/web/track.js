@@ -64,6 +64,12 @@ export class Track {
     return {time, mode, half, left, right};
   }
 
+  // The game's clock, between two rows as well.
+  gameTime(place) {
+    const [row, next, share] = this.between(place);
+    return this.rows[row] + share * (this.rows[next] - this.rows[row]);
+  }
+
   ball(place, position, orientation) {
     this.pose(place, 5, position, orientation);
   }
