@@ -9,6 +9,7 @@
 
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/roboviz.h"
 #include "nonet/app/tcp_match.h"
 #include "nonet/app/trace_file.h"
 #include "nonet/lab/reports/match_localization.h"
@@ -36,6 +37,11 @@ void addTrace(const std::string& folder, const lab::Thought& thought, std::uniqu
   file->add(thought.agent);
 }
 
+void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter) {
+  if (!painter) painter = std::make_unique<RobovizPainter>("localhost");
+  painter->show(thought.agent);
+}
+
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
                           lab::MatchLocalization& localization) {
   const lab::MatchChoice& match = arguments.options.match;
@@ -50,11 +56,15 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
     return true;
   };
   std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
-  observers.afterThought = [&](const lab::Thought& thought) {
-    if (arguments.localization) localization.afterThought(thought);
-    if (!arguments.options.traces.empty())
-      addTrace(arguments.options.traces, thought, traces[thought.handle]);
-  };
+  std::map<sim::AgentHandle, std::unique_ptr<RobovizPainter>> painters;
+  const TcpMatchOptions& options = arguments.options;
+  if (arguments.localization || options.draw || !options.traces.empty()) {
+    observers.afterThought = [&](const lab::Thought& thought) {
+      if (arguments.localization) localization.afterThought(thought);
+      if (!options.traces.empty()) addTrace(options.traces, thought, traces[thought.handle]);
+      if (options.draw) draw(thought, painters[thought.handle]);
+    };
+  }
   lab::MatchResult result = lab::playInProcess(match, dataFolder(), threads, observers);
   console.end();
   return result;
@@ -121,6 +131,8 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
   CLI::Option* logs =
       command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
+  command->add_flag("--draw", options.draw,
+                    "Draw what the agents believe and want on the RoboViz of this machine (UDP port 32769)");
   command->add_option(
       "--trace", options.traces,
       "Folder for one decision trace per agent: what it believes and wants, for `nonet view`");

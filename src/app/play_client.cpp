@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/roboviz.h"
 #include "nonet/app/trace_file.h"
 #include "nonet/app/turn.h"
 #include "nonet/protocol/framing.h"
@@ -49,6 +50,7 @@ class PlayClient {
         session_(options.session),
         turn_(options.host, options.port),
         signals_(io_, SIGINT, SIGTERM) {
+    if (!options.draw.empty()) painter_ = std::make_unique<RobovizPainter>(options.draw);
     if (!options.trace.empty()) trace_ = std::make_unique<TraceFile>(options.trace);
     if (!options.record.empty()) {
       log_ = std::make_unique<protocol::LogWriter>(options.record, options.recordHeader);
@@ -210,6 +212,7 @@ class PlayClient {
     if (log_) log_->received(message);
     session_.receive(message);
     if (trace_) trace_->add(session_.agent());
+    if (painter_) painter_->show(session_.agent());
     watchStage();
   }
 
@@ -308,6 +311,7 @@ class PlayClient {
   protocol::FrameReader frames_;
   std::unique_ptr<protocol::LogWriter> log_;
   std::unique_ptr<TraceFile> trace_;
+  std::unique_ptr<RobovizPainter> painter_;
   std::string outbox_;  // frames not yet taken by the socket
   Clock::time_point started_;
   Clock::time_point greeted_;

@@ -149,6 +149,7 @@ class TcpMatch {
       for (const std::string& file : agent.parameterFiles) add("--params", file);
       if (!options_.logs.empty())
         add("--record", (fs::path(options_.logs) / (nameOf(player) + ".zst")).string());
+      if (options_.draw) command.emplace_back("--draw");
       if (!options_.traces.empty())
         add("--trace", (fs::path(options_.traces) / (nameOf(player) + ".trace")).string());
       processes_.start(command, folder_.file(nameOf(player) + ".txt"));
