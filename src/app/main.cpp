@@ -34,6 +34,8 @@ int run(int argc, char** argv) {
   nonet::app::addMatchCommand(app, exitCode);
   nonet::app::addSeriesCommand(app, exitCode);
   nonet::app::addStatisticsCommand(app, exitCode);
+  nonet::app::addExplainCommand(app, exitCode);
+  nonet::app::addViewCommand(app, exitCode);
   nonet::app::addReplayCommand(app, exitCode);
   nonet::app::addFidelityCommand(app, exitCode);
   nonet::app::addBenchCommand(app, exitCode);

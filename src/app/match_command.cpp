@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <set>
 #include <thread>
 
@@ -9,9 +11,11 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/roboviz.h"
 #include "nonet/app/stop_signal.h"
 #include "nonet/app/tcp_match.h"
 #include "nonet/app/team_name.h"
+#include "nonet/app/trace_file.h"
 #include "nonet/lab/reports/match_localization.h"
 
 namespace nonet::app {
@@ -30,6 +34,19 @@ struct MatchArguments {
   std::string data;
 };
 
+void addTrace(const std::string& folder, const lab::Thought& thought, std::unique_ptr<TraceFile>& file) {
+  if (!file) {
+    const agent::AgentConfig& config = thought.agent.config();
+    file = std::make_unique<TraceFile>(fmt::format("{}/{}_{}.trace", folder, config.team, config.unum));
+  }
+  file->add(thought.agent);
+}
+
+void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter) {
+  if (!painter) painter = std::make_unique<RobovizPainter>("localhost");
+  painter->show(thought.agent);
+}
+
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
                           lab::MatchLocalization& localization) {
   const lab::MatchChoice& match = arguments.options.match;
@@ -44,8 +61,15 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
     if (arguments.localization) localization.afterCycle(simulation);
     return !StopSignal::came();
   };
-  if (arguments.localization) {
-    observers.afterThought = [&](const lab::Thought& thought) { localization.afterThought(thought); };
+  std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
+  std::map<sim::AgentHandle, std::unique_ptr<RobovizPainter>> painters;
+  const TcpMatchOptions& options = arguments.options;
+  if (arguments.localization || options.draw || !options.traces.empty()) {
+    observers.afterThought = [&](const lab::Thought& thought) {
+      if (arguments.localization) localization.afterThought(thought);
+      if (!options.traces.empty()) addTrace(options.traces, thought, traces[thought.handle]);
+      if (options.draw) draw(thought, painters[thought.handle]);
+    };
   }
   lab::MatchResult result = lab::playInProcess(match, dataFolder(arguments.data), threads, observers);
   console.end();
@@ -95,6 +119,8 @@ int runMatch(MatchArguments& arguments) {
   assign(arguments.assignments, match);
   checkBefore(arguments);
 
+  if (!arguments.options.traces.empty()) std::filesystem::create_directories(arguments.options.traces);
+
   Console console;
   lab::MatchLocalization localization;
   const lab::MatchResult result = arguments.inProcess ? playHere(arguments, console, localization)
@@ -143,7 +169,15 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
   CLI::Option* logs =
       command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
-  command->add_option("--monitor-log", match.monitorLog, "Record the monitor stream, for RoboViz");
+  command->add_flag("--draw", options.draw,
+                    "Draw what the agents believe and want on the RoboViz of this machine (UDP port 32769)");
+  command->add_option(
+      "--trace", options.traces,
+      "Folder for one decision trace per agent: what it believes and wants, for `nonet view`");
+  command->add_option(
+      "--monitor-log", match.monitorLog,
+      "Record the monitor stream for `nonet view` (zstd; plain, for RoboViz, if the name ends "
+      "in .log)");
   command->add_option("--port", options.port, "Port for agents, 0: any free one")->capture_default_str();
   command->add_option("--monitor-port", options.monitorPort, "Port for monitors, 0: any free one")
       ->capture_default_str();

@@ -16,6 +16,8 @@
 
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/alarm.h"
+#include "nonet/app/roboviz.h"
+#include "nonet/app/trace_file.h"
 #include "nonet/app/turn.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/log_file.h"
@@ -50,6 +52,8 @@ class PlayClient {
  public:
   explicit PlayClient(const PlayOptions& options)
       : options_(options), turn_(options.host, options.port), signals_(io_, SIGINT, SIGTERM) {
+    if (!options.draw.empty()) painter_ = std::make_unique<RobovizPainter>(options.draw);
+    if (!options.trace.empty()) trace_ = std::make_unique<TraceFile>(options.trace);
     if (!options.record.empty()) {
       log_ = std::make_unique<protocol::LogWriter>(options.record, options.recordHeader);
       if (options.session.agent.startPose)
@@ -221,6 +225,8 @@ class PlayClient {
       watchLog();
     }
     connection.session.receive(message);
+    if (trace_) trace_->add(connection.session.agent());
+    if (painter_) painter_->show(connection.session.agent());
     watchStage(connection);
   }
 
@@ -329,6 +335,8 @@ class PlayClient {
   Alarm deadline_{io_};  // for the first message
   std::unique_ptr<protocol::LogWriter> log_;
   std::ofstream report_;
+  std::unique_ptr<TraceFile> trace_;
+  std::unique_ptr<RobovizPainter> painter_;
   Link link_;
   Clock::time_point started_;
   std::string trouble_ = "no answer";  // why the last attempt to connect failed

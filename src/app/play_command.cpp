@@ -16,6 +16,8 @@ struct PlayArguments {
   std::vector<double> start;  // x, y in metres; heading 0
   std::string challenge;
   std::string data;
+  bool draw = false;
+  std::string drawHost = "localhost";
 };
 
 int runPlay(PlayArguments& arguments) {
@@ -27,6 +29,7 @@ int runPlay(PlayArguments& arguments) {
     fmt::print("challenge {}: the agent starts at its place and plays as in a match\n", arguments.challenge);
   }
   PlayOptions& play = arguments.play;
+  if (arguments.draw) play.draw = arguments.drawHost;
   play.session.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
   // A server in real time ignores (syn), so there is nothing to find out: auto means on, and takes care of
   // servers that hang before the first message.
@@ -54,6 +57,12 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--type", choice.robotType, "Robot type")
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
+  command->add_flag("--draw", arguments->draw,
+                    "Draw what the agent believes and wants on RoboViz (UDP port 32769)");
+  command->add_option("--draw-host", arguments->drawHost, "With --draw: where RoboViz runs")
+      ->capture_default_str();
+  command->add_option("--trace", play.trace,
+                      "Write what the agent believes and wants in each cycle (JSON lines, zstd)");
   command->add_option("--record", play.record, "Write a log for `nonet replay` (compressed with zstd)");
   command
       ->add_option("--sync", arguments->sync,

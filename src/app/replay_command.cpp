@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "nonet/agent/trace.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/lab/reports/localization_report.h"
@@ -19,7 +21,18 @@ struct ReplayArguments {
   bool json = false;
   bool localization = false;
   std::string maps = "logs/maps";
+  bool trace = false;
+  bool csv = false;
+  double from = 0.0;  // s of the game
+  double to = std::numeric_limits<double>::infinity();
 };
+
+void printTrace(const agent::Session& session, const ReplayArguments& arguments) {
+  const double time = session.agent().world().game.time;
+  if (time < arguments.from || time > arguments.to) return;
+  const nlohmann::ordered_json trace = agent::traceOf(session.agent());
+  fmt::print("{}\n", arguments.csv ? agent::traceCsv(trace) : trace.dump());
+}
 
 /// "logs/3.zst" -> "FOLDER/3.zst.svg".
 std::string writeMap(const lab::LocalizationReport& report, const std::string& log,
@@ -66,13 +79,17 @@ int replayOne(const std::string& file, ReplayArguments& arguments, lab::Localiza
       all.sharpen(truth);
     };
   }
+  if (arguments.trace) {
+    if (arguments.csv) fmt::print("{}\n", agent::traceCsvHeader());
+    arguments.options.observer = [&](const agent::Session& session) { printTrace(session, arguments); };
+  }
   const lab::ReplayReport report = lab::replay(file, arguments.options);
   if (arguments.localization) {
     printLocalization(localization, file, arguments);
-  } else if (arguments.json) {
-    fmt::print("{}\n", report.toJson().dump());
   } else {
-    fmt::print("{}", report.toText());
+    // A trace has the standard output for itself.
+    fmt::print(arguments.trace ? stderr : stdout, "{}",
+               arguments.json ? report.toJson().dump() + "\n" : report.toText());
   }
   if (!report.sound) {
     fmt::print(stderr, "nonet replay: {}\n", report.problem);
@@ -114,6 +131,14 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--maps", arguments->maps, "With --localization: folder for the maps (SVG)")
       ->needs(localization)
       ->capture_default_str();
+  CLI::Option* trace =
+      command->add_flag("--trace", arguments->trace,
+                        "What the agent believed and wanted, one JSON object per cycle; the report goes to "
+                        "the standard error");
+  command->add_flag("--csv", arguments->csv, "With --trace: the main values as a table")->needs(trace);
+  command->add_option("--from", arguments->from, "With --trace: from this time of the game on, s")
+      ->needs(trace);
+  command->add_option("--to", arguments->to, "With --trace: up to this time of the game, s")->needs(trace);
   lab::ReplayOptions& options = arguments->options;
   command->add_option("--unum", options.unum, "Foreign logs: the robot's number, if the log does not tell");
   command->add_option("--team", options.team, "Foreign logs: its team");

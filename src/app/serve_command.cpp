@@ -135,8 +135,10 @@ void addServeCommand(CLI::App& app, int& exitCode) {
   command->add_option("--solver", a.solver, "Physics: exact, as the league's server, or quick")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact", "quick"}));
-  command->add_option("--record-monitor", a.server.monitorLog,
-                      "Write the monitor stream into this file (sparkmonitor.log format)");
+  command->add_option(
+      "--record-monitor", a.server.monitorLog,
+      "Write the monitor stream into this file (sparkmonitor.log format; compressed with zstd unless "
+      "its name ends in .log)");
   command->add_flag("--end-with-match", a.server.endWithMatch, "End after the match");
   command->add_flag("-v,--verbose", a.verbose, "Say more");
   command->callback([arguments, &exitCode] { exitCode = runServe(*arguments); });

@@ -149,6 +149,9 @@ class TcpMatch {
       if (!team.dataFolder.empty()) add("--data", team.dataFolder);
       if (!options_.logs.empty())
         add("--record", (fs::path(options_.logs) / (nameOf(player) + ".zst")).string());
+      if (options_.draw) command.emplace_back("--draw");
+      if (!options_.traces.empty())
+        add("--trace", (fs::path(options_.traces) / (nameOf(player) + ".trace")).string());
       processes_.start(command, folder_.file(nameOf(player) + ".txt"));
     }
   }

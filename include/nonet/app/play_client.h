@@ -24,6 +24,8 @@ struct PlayOptions {
   agent::SessionOptions session;
   std::string record;  // log file; empty: none
   protocol::LogHeader recordHeader;
+  std::string trace;    // file for the decision trace; empty: none
+  std::string draw;     // host of RoboViz to draw on; empty: none
   std::string report;   // JSON of what was counted, written at the end; empty: none
   bool rescue = true;   // before the first message, free a lock-step server that hangs
   bool atOnce = false;  // introduce oneself without waiting for other agents of this machine

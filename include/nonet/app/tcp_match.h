@@ -15,6 +15,8 @@ struct TcpMatchOptions {
   std::uint16_t monitorPort = 0;
   double answerTimeout = 10.0;  // s, lock-step
   std::string logs;             // folder for one log per agent; empty: none
+  bool draw = false;            // on the RoboViz of this machine
+  std::string traces;           // folder for one decision trace per agent; empty: none
 };
 
 /// Plays to the end, or to SIGINT or SIGTERM. Throws std::runtime_error if the match cannot begin.

@@ -12,13 +12,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "nonet/protocol/compressed_file.h"
 
 namespace nonet::protocol {
 
@@ -48,9 +49,6 @@ class LogWriter {
  public:
   /// Throws LogError if the file cannot be created. The header is flushed at once.
   LogWriter(std::string path, const LogHeader& header, int flushInterval = 50);
-  ~LogWriter();
-  LogWriter(const LogWriter&) = delete;
-  LogWriter& operator=(const LogWriter&) = delete;
 
   void received(std::string_view message);
   void sent(std::string_view message);
@@ -58,25 +56,18 @@ class LogWriter {
   void comment(std::string_view text);
   void flush();
   /// Ends the file; nothing is written after that. The destructor does the same.
-  void close();
+  void close() { file_.close(); }
 
   /// A full disk must not end a match: after an error nothing more is written, and error() says why.
-  bool failed() const { return !error_.empty(); }
-  const std::string& error() const { return error_; }
-  const std::string& path() const { return path_; }
+  bool failed() const { return file_.failed(); }
+  const std::string& error() const { return file_.error(); }
+  const std::string& path() const { return file_.path(); }
 
  private:
-  struct Compressor;
-
   void writeLine(char mark, std::string_view text);
-  void compress(std::string_view text, int directive);
-  void fail(std::string_view what);
 
-  std::string path_;
-  std::string error_;
+  CompressedFile file_;
   std::string line_;
-  std::FILE* file_ = nullptr;
-  std::unique_ptr<Compressor> compressor_;
   int flushInterval_;
   int sinceFlush_ = 0;
 };

@@ -10,6 +10,7 @@
 #include "nonet/config/assignment.h"
 #include "nonet/config/parameters.h"
 #include "nonet/lab/common/statistics.h"
+#include "nonet/lab/reports/token_difference.h"
 #include "nonet/protocol/log_file.h"
 #include "nonet/protocol/percept_text.h"
 
@@ -109,7 +110,7 @@ class Replay {
     LogLine line;
     while (reader_.next(line)) {
       if (line.kind == LogLine::Kind::Received) {
-        received(line.text);
+        received(line);
       } else if (line.kind == LogLine::Kind::Sent && report_.own) {
         compare(line);
       } else if (line.kind == LogLine::Kind::Truth && options_.truthObserver) {
@@ -123,7 +124,8 @@ class Replay {
   }
 
  private:
-  void received(std::string_view text) {
+  void received(const LogLine& line) {
+    const std::string_view text = line.text;
     const double start = processorTime();
     session_.receive(text);
     // In foreign logs every message gets its answer. In our own the recorded answers say which ones did.
@@ -133,9 +135,19 @@ class Replay {
     const protocol::Percept& percept = session_.percept();
     protocol::writePercept(percept, written_);
     if (written_ != text) ++report_.roundtripDifferences;
+    if (percept.unknownTokens > 0) nameUnknown(line);
     count(percept);
     if (percept.vision) compareWithTruth(*percept.vision);
     if (options_.observer) options_.observer(session_);
+  }
+
+  // The parser drops what it does not know, so it is missing where the percept is written back.
+  void nameUnknown(const LogLine& line) {
+    constexpr std::size_t kEnough = 10;
+    if (report_.unknown.size() >= kEnough) return;
+    const auto difference = firstTokenDifference(line.text, written_);
+    report_.unknown.push_back(
+        {line.number, session_.percept().time, difference ? difference->first : std::string(line.text)});
   }
 
   void count(const protocol::Percept& percept) {
@@ -175,8 +187,12 @@ class Replay {
     if (answer == line.text) return;
     ++report_.effectorDifferences;
     if (report_.firstDifference) return;
+    // The same tokens with other blanks differ as well, though nobody reads them differently.
+    const TokenDifference difference =
+        firstTokenDifference(line.text, answer).value_or(TokenDifference{0, "other blanks", "other blanks"});
     report_.firstDifference =
-        EffectorDifference{line.number, session_.percept().time, std::string(line.text), std::string(answer)};
+        EffectorDifference{line.number,      session_.percept().time, session_.counts().messages,
+                           difference.token, difference.first,        difference.second};
   }
 
   /// Keeps what can be said about the first line that no log of an agent has.
@@ -307,10 +323,13 @@ nlohmann::ordered_json ReplayReport::toJson() const {
   };
   if (own) json["effector_differences"] = effectorDifferences;
   if (firstDifference) {
-    json["first_difference"] = {{"line", firstDifference->line},
-                                {"time", firstDifference->time},
-                                {"recorded", firstDifference->recorded},
-                                {"replayed", firstDifference->replayed}};
+    json["first_difference"] = {
+        {"line", firstDifference->line},         {"time", firstDifference->time},
+        {"cycle", firstDifference->cycle},       {"token", firstDifference->token},
+        {"recorded", firstDifference->recorded}, {"replayed", firstDifference->replayed}};
+  }
+  for (const UnknownToken& token : unknown) {
+    json["unknown_tokens"].push_back({{"line", token.line}, {"time", token.time}, {"text", token.text}});
   }
   return json;
 }
@@ -327,8 +346,12 @@ std::string ReplayReport::toText() const {
     text += fmt::format("  effectors: {} answers differ from the recorded ones\n", effectorDifferences);
   if (firstDifference) {
     text += fmt::format(
-        "  first difference in line {}, server time {:.2f}\n    recorded {}\n    replayed {}\n",
-        firstDifference->line, firstDifference->time, firstDifference->recorded, firstDifference->replayed);
+        "  first difference in line {}, cycle {}, server time {:.2f}: recorded {}, replayed {} (token {})\n",
+        firstDifference->line, firstDifference->cycle, firstDifference->time, firstDifference->recorded,
+        firstDifference->replayed, firstDifference->token);
+  }
+  for (const UnknownToken& token : unknown) {
+    text += fmt::format("  unknown in line {}, server time {:.2f}: {}\n", token.line, token.time, token.text);
   }
   const auto error = [&](const char* name, const std::optional<Quantiles>& value, double scale,
                          const char* unit) {

@@ -290,9 +290,13 @@ void MonitorStream::writeBody(const AgentInfo& agent, const model::BodySpec& bod
   }
 }
 
-MonitorLog::MonitorLog(const Simulation& simulation, const std::string& path)
-    : stream_(simulation), file_(path) {
-  if (!file_) throw std::runtime_error(fmt::format("cannot write the monitor log {}", path));
+MonitorLog::MonitorLog(const Simulation& simulation, const std::string& path) : stream_(simulation) {
+  if (!path.ends_with(".log")) {
+    file_ = std::make_unique<protocol::CompressedFile>(path);
+    return;
+  }
+  auto& plain = file_.emplace<std::ofstream>(path);
+  if (!plain) throw std::runtime_error(fmt::format("cannot write the monitor log {}", path));
 }
 
 void MonitorLog::cycle() {
@@ -300,10 +304,27 @@ void MonitorLog::cycle() {
   constexpr int kMessagesPerFull = 15;   // 3 s
   if (--cyclesToNext_ > 0) return;
   cyclesToNext_ = kCyclesPerMessage;
-  file_ << stream_.next(messagesSinceFull_ >= kMessagesPerFull) << '\n';
+  write(stream_.next(messagesSinceFull_ >= kMessagesPerFull));
+  write("\n");
   messagesSinceFull_ = stream_.lastWasFull() ? 1 : messagesSinceFull_ + 1;
   // A killed server loses at most what came after the last full message.
-  if (stream_.lastWasFull()) file_.flush();
+  if (stream_.lastWasFull()) flush();
+}
+
+void MonitorLog::write(std::string_view text) {
+  if (auto* plain = std::get_if<std::ofstream>(&file_)) {
+    *plain << text;
+  } else {
+    std::get<1>(file_)->write(text);
+  }
+}
+
+void MonitorLog::flush() {
+  if (auto* plain = std::get_if<std::ofstream>(&file_)) {
+    plain->flush();
+  } else {
+    std::get<1>(file_)->flush();
+  }
 }
 
 }  // namespace nonet::sim

@@ -42,10 +42,18 @@ struct Quantiles {
 };
 
 struct EffectorDifference {
-  std::size_t line = 0;  // of the log
-  double time = 0.0;     // server time of the message answered, s
-  std::string recorded;
+  std::size_t line = 0;   // of the log
+  double time = 0.0;      // server time of the message answered, s
+  long cycle = 0;         // number of that message, from 1
+  std::size_t token = 0;  // the first that differs, from 1
+  std::string recorded;   // the list around that token: "(he1 0.123)"
   std::string replayed;
+};
+
+struct UnknownToken {
+  std::size_t line = 0;  // of the log
+  double time = 0.0;     // server time of the message, s
+  std::string text;      // the list in question
 };
 
 struct ReplayReport {
@@ -57,6 +65,7 @@ struct ReplayReport {
   long roundtripDifferences = 0;  // messages that come out differently when written back
   long effectorDifferences = 0;   // answers that differ from the recorded ones (own logs)
   std::optional<EffectorDifference> firstDifference;
+  std::vector<UnknownToken> unknown;       // the first of each of the first messages that hold one
   std::map<std::string, long> perceptors;  // how often each came
   double cycleMedian = 0.0;                // us of processor time per message: parse, agent, write
   double cycleP999 = 0.0;

@@ -5,10 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "nonet/protocol/compressed_file.h"
 #include "nonet/sim/simulation.h"
 
 namespace nonet::sim {
@@ -72,7 +75,8 @@ class MonitorStream {
 };
 
 /// A sparkmonitor.log: one message per line, every 0.2 s, a full one at least every 3 s and at each change of
-/// the scene. Throws std::runtime_error naming the file if it cannot be opened.
+/// the scene. Compressed with zstd, but plain if the name ends in ".log": other programs read those. Throws
+/// std::runtime_error naming the file if it cannot be opened.
 class MonitorLog {
  public:
   MonitorLog(const Simulation& simulation, const std::string& path);
@@ -80,8 +84,11 @@ class MonitorLog {
   void cycle();
 
  private:
+  void write(std::string_view text);
+  void flush();
+
   MonitorStream stream_;
-  std::ofstream file_;
+  std::variant<std::ofstream, std::unique_ptr<protocol::CompressedFile>> file_;
   int cyclesToNext_ = 0;
   int messagesSinceFull_ = 0;
 };

@@ -1,0 +1,24 @@
+// Decision traces (nonet match --trace, nonet replay --trace) for the viewer: which robot's lie where.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+namespace nonet::app {
+
+class TraceFolder {
+ public:
+  /// Looks into every file of the folder. Throws std::runtime_error if there is no trace in it.
+  explicit TraceFolder(const std::string& folder);
+
+  std::size_t size() const { return files_.size(); }
+  /// The trace of the robot in this slot of the track as a JSON array, one cycle per 0.1 s; "[]" if there is
+  /// none.
+  std::string cycles(std::size_t slot) const;
+
+ private:
+  std::map<std::size_t, std::string> files_;  // by slot
+};
+
+}  // namespace nonet::app

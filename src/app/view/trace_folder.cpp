@@ -1,0 +1,70 @@
+#include "nonet/app/view/trace_folder.h"
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "nonet/protocol/log_file.h"
+
+namespace nonet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLinesToLookAt = 500;  // the server names the robot after a few cycles
+constexpr double kStep = 0.1;        // s between two cycles that are shown
+
+// One cycle of a trace, discarded if the line is none.
+nlohmann::json parseLine(const protocol::LogLine& line) {
+  nlohmann::json json = nlohmann::json::parse(line.text, nullptr, false);
+  return json.is_object() && json.contains("game_time") && json.contains("unum") && json.contains("left")
+             ? json
+             : nlohmann::json(nlohmann::json::value_t::discarded);
+}
+
+// The slot of the robot whose trace this file holds.
+std::optional<std::size_t> slotOf(const std::string& path) {
+  protocol::LogReader reader(path);
+  protocol::LogLine line;
+  for (int i = 0; i < kLinesToLookAt && reader.next(line); ++i) {
+    const nlohmann::json cycle = parseLine(line);
+    if (cycle.is_discarded()) return std::nullopt;
+    const int unum = cycle["unum"];
+    if (unum >= 1 && unum <= 11) return static_cast<std::size_t>(unum - 1 + (cycle["left"] ? 0 : 11));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TraceFolder::TraceFolder(const std::string& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    if (const auto slot = slotOf(entry.path().string())) files_[*slot] = entry.path().string();
+  }
+  if (files_.empty())
+    throw std::runtime_error(folder + ": no traces in it; nonet match --trace FOLDER writes them");
+}
+
+std::string TraceFolder::cycles(std::size_t slot) const {
+  const auto file = files_.find(slot);
+  if (file == files_.end()) return "[]";
+  protocol::LogReader reader(file->second);
+  protocol::LogLine line;
+  std::string text = "[";
+  double next = -1.0;
+  while (reader.next(line)) {
+    const nlohmann::json cycle = parseLine(line);
+    if (cycle.is_discarded()) continue;
+    const double time = cycle["time"];
+    if (time < next) continue;
+    next = time + kStep;
+    if (text.size() > 1) text += ',';
+    text += line.text;
+  }
+  return text + "]";
+}
+
+}  // namespace nonet::app
