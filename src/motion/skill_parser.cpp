@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "nonet/model/robot_model.h"
 #include "nonet/motion/limbs.h"
 #include "nonet/motion/skill_language.h"
 
@@ -33,6 +34,10 @@ constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm
                                                  {"ankleRoll", JointId::LLeg6},
                                                  {"toe", JointId::LLeg7}}};
 
+BallValue negated(const BallValue& value) {
+  return {-value.constant, -value.perAhead, -value.perAside};
+}
+
 class Parser : private SkillReader {
  public:
   Parser(std::string_view text, const std::string& file, const ParameterLookup& lookup)
@@ -54,7 +59,10 @@ class Parser : private SkillReader {
     skill_.name = word("the name of the skill");
     expect("{");
     while (accept("parameter")) parseParameter();
+    if (accept("kick")) skill_.kick = kickHead();
+    allowBall(skill_.kick.has_value());
     block();
+    allowBall(false);
     emit(Instruction::Kind::End);
     return std::move(skill_);
   }
@@ -84,6 +92,67 @@ class Parser : private SkillReader {
     skill_.parameters.push_back(std::move(parameter));
   }
 
+  // What a kick says of itself; every line but the first may be left out.
+  KickHead kickHead() {
+    KickHead head;
+    expect("{");
+    while (!accept("}")) {
+      if (accept("ball")) {
+        head.p_RBall = pair(Unit::Metre);
+        if (accept("within")) head.tolerance = pair(Unit::Metre);
+      } else if (accept("direction")) {
+        head.direction = value(Unit::Radian);
+      } else if (accept("distance")) {
+        head.shortest = positive(Unit::Metre);
+        expect("..");
+        head.longest = positive(Unit::Metre);
+        if (head.longest < head.shortest) fail("the distances are the wrong way round");
+      } else if (accept("contact")) {
+        head.contact = positive(Unit::Second);
+      } else if (accept("room")) {
+        head.room = value(Unit::Metre);
+      } else if (accept("from")) {
+        head.fromWalk = accept("walk");
+        if (!head.fromWalk) expect("stand");
+      } else if (accept("types")) {
+        head.types = types();
+      } else {
+        fail(
+            fmt::format("'{}' does not belong into the head of a kick (ball direction distance contact room "
+                        "from types)",
+                        peek().text));
+      }
+    }
+    if (head.p_RBall.isZero() || head.longest == 0.0 || head.contact == 0.0) {
+      fail("the head of a kick needs at least 'ball', 'distance' and 'contact'");
+    }
+    return head;
+  }
+
+  Vector2 pair(Unit unit) {
+    Vector2 result;
+    expect("(");
+    result.x() = value(unit);
+    expect(",");
+    result.y() = value(unit);
+    expect(")");
+    return result;
+  }
+
+  std::uint32_t types() {
+    std::uint32_t mask = 0;
+    while (peek().kind == Kind::Number) {
+      const double type = peek().value;
+      if (type < 0.0 || type >= model::kRobotTypeCount || type != static_cast<int>(type)) {
+        fail("a robot type is a number from 0 to 4");
+      }
+      take();
+      mask |= 1U << static_cast<int>(type);
+    }
+    if (mask == 0) fail("'types' names at least one robot type");
+    return mask;
+  }
+
   Instruction& emit(Instruction::Kind kind) {
     Instruction& instruction = skill_.program.emplace_back();
     instruction.kind = kind;
@@ -102,6 +171,7 @@ class Parser : private SkillReader {
 
   void statement() {
     if (accept("move")) return move();
+    if (accept("swing")) return swing();
     if (accept("curve")) return curve();
     if (accept("wait")) return wait();
     if (accept("if")) return branch();
@@ -112,8 +182,8 @@ class Parser : private SkillReader {
     if (accept("fail")) return static_cast<void>(emit(Instruction::Kind::Fail));
     if (peek().kind == Kind::End) fail("the file ends inside a skill: '}' is missing");
     if (peek().text == "parameter") fail("parameters stand at the begin of a skill");
-    fail(
-        fmt::format("'{}' is no statement (move curve wait if repeat call stiffness end fail)", peek().text));
+    fail(fmt::format("'{}' is no statement (move swing curve wait if repeat call stiffness end fail)",
+                     peek().text));
   }
 
   void move() {
@@ -123,7 +193,7 @@ class Parser : private SkillReader {
       instruction.value = positive(Unit::RadianPerSecond);
     } else {
       expect("over");
-      instruction.value = positive(Unit::Second);
+      instruction.duration = duration();
     }
     expect("{");
     while (!accept("}")) {
@@ -132,6 +202,27 @@ class Parser : private SkillReader {
       } else {
         target(instruction);
       }
+    }
+  }
+
+  BallValue duration() {
+    const SkillToken& first = peek();
+    const BallValue result = ballValue(Unit::Second);
+    if (!(result.constant > 0.0)) failAt(first, "must be more than zero");
+    return result;
+  }
+
+  void swing() {
+    Instruction& instruction = emit(Instruction::Kind::Swing);
+    expect("over");
+    instruction.duration = duration();
+    expect("{");
+    while (!accept("}")) {
+      const std::size_t before = instruction.joints.size();
+      joints(instruction, true);
+      if (!accept("after")) continue;
+      const BallValue after = ballValue(Unit::Second);
+      for (std::size_t i = before; i < instruction.joints.size(); ++i) instruction.joints[i].after = after;
     }
   }
 
@@ -197,19 +288,20 @@ class Parser : private SkillReader {
     const std::string name = word("the name of a joint");
     if (group == "head") {
       if (name != "pan" && name != "tilt") failAt(nameToken, "the head has the joints pan and tilt");
-      const double angle = withAngle ? value(Unit::Radian) : 0.0;
+      const BallValue angle = withAngle ? ballValue(Unit::Radian) : BallValue{};
       // Tilt is positive downwards here as in a head request; the joint is positive upwards.
-      if (name == "pan") instruction.joints.push_back({JointId::Head1, angle});
-      if (name == "tilt") instruction.joints.push_back({JointId::Head2, -angle});
+      if (name == "pan") instruction.joints.push_back({JointId::Head1, angle, {}});
+      if (name == "tilt") instruction.joints.push_back({JointId::Head2, negated(angle), {}});
       return;
     }
     const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
                                     [&](const JointWord& joint) { return joint.name == name; });
     if (found == kLimbJoints.end()) failAt(nameToken, fmt::format("unknown joint '{}'", name));
-    const double angle = withAngle ? value(Unit::Radian) : 0.0;
+    const BallValue angle = withAngle ? ballValue(Unit::Radian) : BallValue{};
     const JointId right = model::mirrored(found->left);
-    if (group != "right") instruction.joints.push_back({found->left, angle});
-    if (group != "left") instruction.joints.push_back({right, mirrorsSign(right) ? -angle : angle});
+    if (group != "right") instruction.joints.push_back({found->left, angle, {}});
+    if (group != "left")
+      instruction.joints.push_back({right, mirrorsSign(right) ? negated(angle) : angle, {}});
   }
 
   void wait() {
@@ -276,7 +368,7 @@ class Parser : private SkillReader {
       return;
     }
     for (std::size_t i = 0; i < model::kJointCount; ++i)
-      instruction.joints.push_back({model::jointAt(i), 0.0});
+      instruction.joints.push_back({model::jointAt(i), {}, {}});
   }
 
   // -- conditions
