@@ -24,8 +24,8 @@ bool isSign(const std::vector<SkillToken>& line, std::size_t i) {
   // "left.knee -30deg": the word is the name of a joint. "over a - b": it is a parameter.
   const bool joint = i >= 2 && isSymbol(line[i - 2], ".");
   const bool keyword = before.text == "over" || before.text == "at" || before.text == "wait" ||
-                       before.text == "in" || before.text == "within" || before.text == "stiffness" ||
-                       before.text == "repeat";
+                       before.text == "in" || before.text == "within" || before.text == "after" ||
+                       before.text == "stiffness" || before.text == "repeat";
   return joint || keyword;
 }
 

@@ -36,6 +36,10 @@ constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm
                                                  {"ankleRoll", JointId::LLeg6},
                                                  {"toe", JointId::LLeg7}}};
 
+BallValue negated(const BallValue& value) {
+  return {-value.constant, -value.perAhead, -value.perAside};
+}
+
 class Parser : private SkillReader {
  public:
   Parser(std::string_view text, const std::string& file, const ParameterLookup& lookup,
@@ -66,10 +70,13 @@ class Parser : private SkillReader {
     skill_.name = word("the name of the skill");
     expect("{");
     const auto begins = [](const SkillToken& token) {
-      return token.text == "parameter" || isStatement(token);
+      return token.text == "parameter" || token.text == "kick" || isStatement(token);
     };
     while (accept("parameter")) part([this] { parseParameter(); }, begins);
+    if (accept("kick")) part([this] { skill_.kick = kickHead(); }, begins);
+    allowBall(skill_.kick.has_value());
     block();
+    allowBall(false);
     emit(Instruction::Kind::End);
     return std::move(skill_);
   }
@@ -100,6 +107,67 @@ class Parser : private SkillReader {
     skill_.parameters.push_back(std::move(parameter));
   }
 
+  // What a kick says of itself; every line but the first may be left out.
+  KickHead kickHead() {
+    KickHead head;
+    expect("{");
+    while (!accept("}")) {
+      if (accept("ball")) {
+        head.p_RBall = pair(Unit::Metre);
+        if (accept("within")) head.tolerance = pair(Unit::Metre);
+      } else if (accept("direction")) {
+        head.direction = value(Unit::Radian);
+      } else if (accept("distance")) {
+        head.shortest = positive(Unit::Metre);
+        expect("..");
+        head.longest = positive(Unit::Metre);
+        if (head.longest < head.shortest) fail("the distances are the wrong way round");
+      } else if (accept("contact")) {
+        head.contact = positive(Unit::Second);
+      } else if (accept("room")) {
+        head.room = value(Unit::Metre);
+      } else if (accept("from")) {
+        head.fromWalk = accept("walk");
+        if (!head.fromWalk) expect("stand");
+      } else if (accept("types")) {
+        head.types = types();
+      } else {
+        fail(
+            fmt::format("'{}' does not belong into the head of a kick (ball direction distance contact room "
+                        "from types)",
+                        peek().text));
+      }
+    }
+    if (head.p_RBall.isZero() || head.longest == 0.0 || head.contact == 0.0) {
+      fail("the head of a kick needs at least 'ball', 'distance' and 'contact'");
+    }
+    return head;
+  }
+
+  Vector2 pair(Unit unit) {
+    Vector2 result;
+    expect("(");
+    result.x() = value(unit);
+    expect(",");
+    result.y() = value(unit);
+    expect(")");
+    return result;
+  }
+
+  std::uint32_t types() {
+    std::uint32_t mask = 0;
+    while (peek().kind == Kind::Number) {
+      const double type = peek().value;
+      if (type < 0.0 || type >= model::kRobotTypeCount || type != static_cast<int>(type)) {
+        fail("a robot type is a number from 0 to 4");
+      }
+      take();
+      mask |= 1U << static_cast<int>(type);
+    }
+    if (mask == 0) fail("'types' names at least one robot type");
+    return mask;
+  }
+
   Instruction& emit(Instruction::Kind kind) {
     Instruction& instruction = skill_.program.emplace_back();
     instruction.kind = kind;
@@ -117,8 +185,8 @@ class Parser : private SkillReader {
   }
 
   static bool isStatement(const SkillToken& token) {
-    static constexpr std::array<std::string_view, 9> kWords{"move", "curve",     "wait", "if",  "repeat",
-                                                            "call", "stiffness", "end",  "fail"};
+    static constexpr std::array<std::string_view, 10> kWords{
+        "move", "swing", "curve", "wait", "if", "repeat", "call", "stiffness", "end", "fail"};
     return token.kind == Kind::Word && std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
   }
   static bool isTarget(const SkillToken& token) {
@@ -129,6 +197,7 @@ class Parser : private SkillReader {
 
   void statement() {
     if (accept("move")) return move();
+    if (accept("swing")) return swing();
     if (accept("curve")) return curve();
     if (accept("wait")) return wait();
     if (accept("if")) return branch();
@@ -139,8 +208,8 @@ class Parser : private SkillReader {
     if (accept("fail")) return static_cast<void>(emit(Instruction::Kind::Fail));
     if (peek().kind == Kind::End) fail("the file ends inside a skill: '}' is missing");
     if (peek().text == "parameter") fail("parameters stand at the begin of a skill");
-    fail(
-        fmt::format("'{}' is no statement (move curve wait if repeat call stiffness end fail)", peek().text));
+    fail(fmt::format("'{}' is no statement (move swing curve wait if repeat call stiffness end fail)",
+                     peek().text));
   }
 
   void move() {
@@ -150,7 +219,7 @@ class Parser : private SkillReader {
       instruction.value = positive(Unit::RadianPerSecond);
     } else {
       expect("over");
-      instruction.value = positive(Unit::Second);
+      instruction.duration = duration();
     }
     expect("{");
     while (!accept("}")) {
@@ -159,6 +228,27 @@ class Parser : private SkillReader {
       } else {
         part([&] { target(instruction); }, isTarget);
       }
+    }
+  }
+
+  BallValue duration() {
+    const SkillToken& first = peek();
+    const BallValue result = ballValue(Unit::Second);
+    if (!(result.constant > 0.0)) failAt(first, "must be more than zero");
+    return result;
+  }
+
+  void swing() {
+    Instruction& instruction = emit(Instruction::Kind::Swing);
+    expect("over");
+    instruction.duration = duration();
+    expect("{");
+    while (!accept("}")) {
+      const std::size_t before = instruction.joints.size();
+      joints(instruction, true);
+      if (!accept("after")) continue;
+      const BallValue after = ballValue(Unit::Second);
+      for (std::size_t i = before; i < instruction.joints.size(); ++i) instruction.joints[i].after = after;
     }
   }
 
@@ -227,24 +317,25 @@ class Parser : private SkillReader {
     if (group == "head") {
       if (name != "pan" && name != "tilt") failAt(nameToken, "the head has the joints pan and tilt");
       const SkillToken angleToken = peek();
-      const double angle = withAngle ? value(Unit::Radian) : 0.0;
+      const BallValue angle = withAngle ? ballValue(Unit::Radian) : BallValue{};
       if (withAngle)
         checkLimits(angleToken, name == "pan" ? JointId::Head1 : JointId::Head2,
-                    name == "pan" ? angle : -angle);
+                    name == "pan" ? angle.constant : -angle.constant);
       // Tilt is positive downwards here as in a head request; the joint is positive upwards.
-      if (name == "pan") instruction.joints.push_back({JointId::Head1, angle});
-      if (name == "tilt") instruction.joints.push_back({JointId::Head2, -angle});
+      if (name == "pan") instruction.joints.push_back({JointId::Head1, angle, {}});
+      if (name == "tilt") instruction.joints.push_back({JointId::Head2, negated(angle), {}});
       return;
     }
     const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
                                     [&](const JointWord& joint) { return joint.name == name; });
     if (found == kLimbJoints.end()) failAt(nameToken, fmt::format("unknown joint '{}'", name));
     const SkillToken angleToken = peek();
-    const double angle = withAngle ? value(Unit::Radian) : 0.0;
-    if (withAngle) checkLimits(angleToken, found->left, angle);
+    const BallValue angle = withAngle ? ballValue(Unit::Radian) : BallValue{};
+    if (withAngle) checkLimits(angleToken, found->left, angle.constant);
     const JointId right = model::mirrored(found->left);
-    if (group != "right") instruction.joints.push_back({found->left, angle});
-    if (group != "left") instruction.joints.push_back({right, mirrorsSign(right) ? -angle : angle});
+    if (group != "right") instruction.joints.push_back({found->left, angle, {}});
+    if (group != "left")
+      instruction.joints.push_back({right, mirrorsSign(right) ? negated(angle) : angle, {}});
   }
 
   // Only when errors are collected: learned values of parameters may lie outside, and the joint then stops at
@@ -332,7 +423,7 @@ class Parser : private SkillReader {
       return;
     }
     for (std::size_t i = 0; i < model::kJointCount; ++i)
-      instruction.joints.push_back({model::jointAt(i), 0.0});
+      instruction.joints.push_back({model::jointAt(i), {}, {}});
   }
 
   // -- conditions

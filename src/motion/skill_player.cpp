@@ -10,9 +10,11 @@ using model::Side;
 
 namespace {
 
-constexpr double kBallRadius = 0.042;  // m, server facts 3.3
 // A skill that jumps in a circle without taking time must not hang the robot.
 constexpr int kMostInstructionsPerCycle = 1000;
+constexpr double kBallRadius = 0.042;     // m, server facts 3.3
+constexpr double kFarthestOffset = 0.08;  // m from a kick's place of the ball: what values are made for
+constexpr double kShortestMove = 0.005;   // s
 
 Matrix3 rotationOf(const Vector3& rollPitchYaw) {
   return (Eigen::AngleAxisd(rollPitchYaw.z(), Vector3::UnitZ()) *
@@ -35,7 +37,11 @@ FootGoal mirroredGoal(FootGoal goal) {
 }
 
 JointGoal mirroredGoal(const JointGoal& goal) {
-  return {model::mirrored(goal.joint), mirrorsSign(goal.joint) ? -goal.angle : goal.angle};
+  const double sign = mirrorsSign(goal.joint) ? -1.0 : 1.0;
+  const BallValue& angle = goal.angle;
+  return {model::mirrored(goal.joint),
+          {sign * angle.constant, sign * angle.perAhead, sign * angle.perAside},
+          goal.after};
 }
 
 // The ball in the torso frame. The ball state is level, so the torso's tilt comes in.
@@ -63,6 +69,12 @@ bool SkillPlayer::start(std::string_view name, bool mirrored, const model::Joint
   begun_ = false;
   from_ = commanded;
   ball_ = p_RBall;
+  ballOffset_ = Vector2::Zero();
+  const std::optional<KickHead>& kick = library_->skill(skill).kick;
+  if (kick && p_RBall) {
+    const Vector2 seen(p_RBall->x(), mirrored ? -p_RBall->y() : p_RBall->y());
+    ballOffset_ = (seen - kick->p_RBall).cwiseMax(-kFarthestOffset).cwiseMin(kFarthestOffset);
+  }
   return true;
 }
 
@@ -110,6 +122,7 @@ SkillPlayer::Outcome SkillPlayer::execute(const Instruction& instruction, const 
   switch (instruction.kind) {
     case Kind::MoveOver:
     case Kind::MoveAt:
+    case Kind::Swing:
     case Kind::Curve:
     case Kind::Wait:
     case Kind::WaitUntil: {
@@ -122,6 +135,8 @@ SkillPlayer::Outcome SkillPlayer::execute(const Instruction& instruction, const 
       if (instruction.kind == Kind::MoveOver || instruction.kind == Kind::MoveAt ||
           instruction.kind == Kind::Curve) {
         place(instruction, frame.mirrored, share, targets);
+      } else if (instruction.kind == Kind::Swing) {
+        placeSwing(targets);
       }
       if (budget <= 1e-9) {
         if (inInstruction_ < duration_ - 1e-9) return Outcome::Stay;
@@ -169,6 +184,9 @@ void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const wor
   begun_ = true;
   inInstruction_ = 0.0;
   duration_ = instruction.value;
+  if (instruction.kind == Instruction::Kind::MoveOver || instruction.kind == Instruction::Kind::Swing) {
+    duration_ = std::max(kShortestMove, instruction.duration.at(ballOffset_));
+  }
   from_ = targets.angles;
   // A joint that was let go begins where it is.
   for (std::size_t i = 0; i < model::kJointCount; ++i) {
@@ -221,8 +239,10 @@ void SkillPlayer::chooseGoals(const Instruction& instruction, bool mirrored) {
   for (const JointGoal& raw : instruction.joints) {
     const JointGoal goal = mirrored ? mirroredGoal(raw) : raw;
     if (!model_->has(goal.joint)) continue;
-    to_[model::index(goal.joint)] = goal.angle;
-    moves_ |= 1U << model::index(goal.joint);
+    const std::size_t i = model::index(goal.joint);
+    to_[i] = goal.angle.at(ballOffset_);
+    after_[i] = goal.after.at(ballOffset_);
+    moves_ |= 1U << i;
   }
 }
 
@@ -235,6 +255,18 @@ void SkillPlayer::place(const Instruction& instruction, bool mirrored, double sh
   }
   placeFeet(instruction, mirrored, share, targets);
   if (instruction.kind == Instruction::Kind::Curve) placeOnCurve(share, targets);
+}
+
+// Every joint runs at its full speed from its delay on: what a kick needs, and what moves with one speed over
+// their whole time do not give.
+void SkillPlayer::placeSwing(JointTargets& targets) const {
+  for (const model::JointSpec& joint : model_->joints()) {
+    const std::size_t i = model::index(joint.id);
+    if (((moves_ >> i) & 1U) == 0) continue;
+    const double way = joint.maxSpeed * std::max(0.0, inInstruction_ - after_[i]);
+    targets.angles[i] = from_[i] + std::clamp(to_[i] - from_[i], -way, way);
+    if (targets.stiffness[i] == 0.0) targets.stiffness[i] = 1.0;
+  }
 }
 
 void SkillPlayer::placeFeet(const Instruction& instruction, bool mirrored, double share,

@@ -95,6 +95,8 @@ SkillValue SkillReader::primary() {
     return {token.value, token.unit};
   }
   if (token.kind == Kind::Word) {
+    if (accept("ballAhead")) return {0.0, Unit::None, 1.0, 0.0};
+    if (accept("ballAside")) return {0.0, Unit::None, 0.0, 1.0};
     const auto found = named_.find(token.text);
     if (found == named_.end()) fail(fmt::format("unknown parameter '{}'", token.text));
     take();
@@ -105,8 +107,7 @@ SkillValue SkillReader::primary() {
 
 SkillValue SkillReader::signedValue() {
   if (!accept("-")) return primary();
-  const SkillValue inner = primary();
-  return {-inner.number, inner.unit};
+  return primary().times(-1.0);
 }
 
 SkillValue SkillReader::product() {
@@ -115,13 +116,19 @@ SkillValue SkillReader::product() {
     if (accept("*")) {
       const SkillValue right = signedValue();
       if (left.unit != Unit::None && right.unit != Unit::None) fail("one factor must be a plain number");
-      left = {left.number * right.number, left.unit == Unit::None ? right.unit : left.unit};
+      if (left.dependsOnBall() && right.dependsOnBall()) fail("only one factor may depend on the ball");
+      const Unit unit = left.unit == Unit::None ? right.unit : left.unit;
+      left = left.dependsOnBall() ? left.times(right.number) : right.times(left.number);
+      left.unit = unit;
     } else if (accept("/")) {
       const SkillValue right = signedValue();
+      if (right.dependsOnBall()) fail("a divisor must not depend on the ball");
       if (right.isZero()) fail("division by zero");
       if (right.unit != Unit::None && right.unit != left.unit)
         fail("divide by a plain number or the same unit");
-      left = {left.number / right.number, right.unit == left.unit ? Unit::None : left.unit};
+      const Unit unit = right.unit == left.unit ? Unit::None : left.unit;
+      left = left.times(1.0 / right.number);
+      left.unit = unit;
     } else {
       return left;
     }
@@ -133,22 +140,32 @@ SkillValue SkillReader::anyValue() {
   SkillValue left = product();
   while (peek().text == "+" || peek().text == "-") {
     const bool minus = take().text == "-";
-    const SkillValue right = product();
+    const SkillValue right = product().times(minus ? -1.0 : 1.0);
     if (left.unit != right.unit && !left.isZero() && !right.isZero()) fail("the units of a sum differ");
-    left = {minus ? left.number - right.number : left.number + right.number,
-            left.isZero() && left.unit == Unit::None ? right.unit : left.unit};
+    left = {left.number + right.number, left.isZero() && left.unit == Unit::None ? right.unit : left.unit,
+            left.perAhead + right.perAhead, left.perAside + right.perAside};
   }
   return left;
 }
 
-double SkillReader::value(Unit unit) {
+BallValue SkillReader::ballValue(Unit unit) {
   const SkillToken& first = peek();
   const SkillValue result = anyValue();
   if (result.unit != unit && !result.isZero()) {
     failAt(first, unit == Unit::None ? std::string("a plain number is needed here")
                                      : fmt::format("a value in {} is needed here", config::unitName(unit)));
   }
-  return result.number;
+  if (result.dependsOnBall() && !ballAllowed_) {
+    failAt(first, "only a skill with a 'kick' head knows where the ball should lie");
+  }
+  return {result.number, result.perAhead, result.perAside};
+}
+
+double SkillReader::value(Unit unit) {
+  const SkillToken& first = peek();
+  const BallValue result = ballValue(unit);
+  if (result.perAhead != 0.0 || result.perAside != 0.0) failAt(first, "must not depend on the ball here");
+  return result.constant;
 }
 
 double SkillReader::positive(Unit unit) {

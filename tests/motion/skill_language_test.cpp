@@ -36,20 +36,20 @@ TEST(SkillLanguage, JointTargetsTakeUnitsAndSides) {
   ASSERT_EQ(skill.program.size(), 2U);  // and the end
   const Instruction& move = skill.program[0];
   EXPECT_EQ(move.kind, Instruction::Kind::MoveOver);
-  EXPECT_DOUBLE_EQ(move.value, 0.2);
+  EXPECT_DOUBLE_EQ(move.duration.constant, 0.2);
   ASSERT_EQ(move.joints.size(), 5U);
   EXPECT_EQ(move.joints[0].joint, JointId::LLeg4);
-  EXPECT_DOUBLE_EQ(move.joints[0].angle, toRadians(-30.0));
+  EXPECT_DOUBLE_EQ(move.joints[0].angle.constant, toRadians(-30.0));
   // Angles are those of the left side: the right elbow bends the other way.
   EXPECT_EQ(move.joints[1].joint, JointId::RArm4);
-  EXPECT_DOUBLE_EQ(move.joints[1].angle, -0.5);
+  EXPECT_DOUBLE_EQ(move.joints[1].angle.constant, -0.5);
   EXPECT_EQ(move.joints[2].joint, JointId::LLeg2);
-  EXPECT_DOUBLE_EQ(move.joints[2].angle, toRadians(10.0));
+  EXPECT_DOUBLE_EQ(move.joints[2].angle.constant, toRadians(10.0));
   EXPECT_EQ(move.joints[3].joint, JointId::RLeg2);
-  EXPECT_DOUBLE_EQ(move.joints[3].angle, toRadians(-10.0));
+  EXPECT_DOUBLE_EQ(move.joints[3].angle.constant, toRadians(-10.0));
   // Tilt is positive downwards, the joint upwards.
   EXPECT_EQ(move.joints[4].joint, JointId::Head2);
-  EXPECT_DOUBLE_EQ(move.joints[4].angle, toRadians(-5.0));
+  EXPECT_DOUBLE_EQ(move.joints[4].angle.constant, toRadians(-5.0));
 }
 
 TEST(SkillLanguage, ExpressionsUseParametersAndPrecedence) {
@@ -60,8 +60,41 @@ TEST(SkillLanguage, ExpressionsUseParametersAndPrecedence) {
   EXPECT_EQ(skill.parameters[0].unit, config::Unit::Radian);
   ASSERT_TRUE(skill.parameters[0].range.has_value());
   EXPECT_FALSE(skill.parameters[1].range.has_value());
-  EXPECT_NEAR(skill.program[0].value, 0.3, 1e-12);
-  EXPECT_NEAR(skill.program[0].joints[0].angle, toRadians(-12.0 * 3.0 / 2.0 - 10.0), 1e-12);
+  EXPECT_NEAR(skill.program[0].duration.constant, 0.3, 1e-12);
+  EXPECT_NEAR(skill.program[0].joints[0].angle.constant, toRadians(-12.0 * 3.0 / 2.0 - 10.0), 1e-12);
+}
+
+TEST(SkillLanguage, KicksSayWhatTheyAre) {
+  const Skill skill = parseOne(
+      "parameter x = 0.2m kick { ball (x, -1cm) within (2cm, 3cm) direction 45deg distance 3m .. 8m contact "
+      "0.3s "
+      "room 0.5m from walk types 0 4 }");
+  ASSERT_TRUE(skill.kick.has_value());
+  EXPECT_TRUE(skill.kick->p_RBall.isApprox(Vector2(0.2, -0.01)));
+  EXPECT_TRUE(skill.kick->tolerance.isApprox(Vector2(0.02, 0.03)));
+  EXPECT_DOUBLE_EQ(skill.kick->direction, toRadians(45.0));
+  EXPECT_DOUBLE_EQ(skill.kick->shortest, 3.0);
+  EXPECT_DOUBLE_EQ(skill.kick->longest, 8.0);
+  EXPECT_DOUBLE_EQ(skill.kick->contact, 0.3);
+  EXPECT_DOUBLE_EQ(skill.kick->room, 0.5);
+  EXPECT_TRUE(skill.kick->fromWalk);
+  EXPECT_TRUE(skill.kick->serves(0));
+  EXPECT_FALSE(skill.kick->serves(3));
+}
+
+// Against the same arithmetic by hand, at a place of the ball that no coefficient hides.
+TEST(SkillLanguage, ValuesMayDependOnTheBall) {
+  const Skill skill = parseOne(
+      "kick { ball (0.2m, 0) distance 1m..2m contact 0.3s }\n"
+      "swing over 0.1s + 0.3s * ballAhead { right.hipRoll -(2deg - 10deg * ballAside) * 3 / 2 + 5deg "
+      "after 0.02s - ballAhead * 0.1s }");
+  const Instruction& swing = skill.program[0];
+  const Vector2 offset(0.03, -0.02);
+  EXPECT_EQ(swing.kind, Instruction::Kind::Swing);
+  EXPECT_NEAR(swing.duration.at(offset), 0.1 + 0.3 * 0.03, 1e-12);
+  // The right hip rolls the other way.
+  EXPECT_NEAR(swing.joints[0].angle.at(offset), -toRadians(-(2.0 + 10.0 * 0.02) * 1.5 + 5.0), 1e-12);
+  EXPECT_NEAR(swing.joints[0].after.at(offset), 0.02 - 0.1 * 0.03, 1e-12);
 }
 
 TEST(SkillLanguage, ParametersAreReplaced) {
@@ -114,6 +147,17 @@ TEST(SkillLanguage, ErrorsNameFileLineAndColumn) {
       {"skill a { curve left foot over 1s { } }", "1 to 12 points"},
       {"skill a { curve left foot over 1s { point (0, 0, 0) foot left at (0, 0, 0) } }", "follows the curve"},
       {"skil a { }", "expected 'skill'"},
+      {"skill a { swing over 1s { left.knee 1deg after 2deg } }", "a value in s is needed"},
+      {"skill a { move over 1s { left.knee 1deg * ballAhead } }", "only a skill with a 'kick' head"},
+      {"skill a { kick { ball (0.1m, 0) contact 0.1s } }", "needs at least"},
+      {"skill a { kick { ball (0.1m, 0) distance 3m..2m contact 0.1s } }", "the wrong way round"},
+      {"skill a { kick { types 5 } }", "a number from 0 to 4"},
+      {"skill a { kick { colour } }", "'colour' does not belong into the head of a kick"},
+      {"skill a { kick { ball (0.1m, 0) distance 1m..2m contact 0.1s } wait 1s * ballAhead }",
+       "must not depend on the ball"},
+      {"skill a { kick { ball (0.1m, 0) distance 1m..2m contact 0.1s } "
+       "move over 1s { left.knee 1deg * ballAhead * ballAside } }",
+       "only one factor may depend on the ball"},
   };
   for (const auto& [text, message] : cases) EXPECT_THAT(errorOf(text), HasSubstr(message)) << text;
 }

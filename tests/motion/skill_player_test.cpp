@@ -50,6 +50,36 @@ TEST_F(Player, MovesWithConstantSpeedAndArrives) {
   EXPECT_NEAR(angle(JointId::LLeg4), -1.0, 1e-12);
 }
 
+// Full speed from the delay on, to the last part of a cycle.
+TEST_F(Player, SwingsAtTheJointsOwnSpeed) {
+  load("skill a { swing over 0.2s { left.knee -1rad after 30ms left.hipPitch 0.1rad } }");
+  const double most = model_.joint(JointId::LLeg4).maxSpeed;
+  for (int i = 1; i <= 10; ++i) {
+    EXPECT_EQ(step(), Result::Running);
+    const double time = i * kCycleTime;
+    EXPECT_NEAR(angle(JointId::LLeg4), -std::min(1.0, most * std::max(0.0, time - 0.03)), 1e-12);
+    EXPECT_NEAR(angle(JointId::LLeg3), std::min(0.1, most * time), 1e-12);
+  }
+  EXPECT_EQ(step(), Result::Finished);
+}
+
+TEST_F(Player, KicksKnowHowFarTheBallLiesFromItsPlace) {
+  const std::string text =
+      "skill a { kick { ball (0.2m, 5cm) distance 1m..2m contact 0.1s }"
+      "move over 0.02s { left.knee -0.5rad - 1rad * ballAhead left.hipRoll 1rad * ballAside } }";
+  library_ = SkillLibrary(parseSkills(text, "test.skl"));
+  world_.body.cycleTime = kCycleTime;
+  for (const bool mirrored : {false, true}) {
+    player_ = std::make_unique<SkillPlayer>(model_, library_);
+    targets_.stiffness.fill(1.0);
+    const Vector2 ball(0.23, mirrored ? -0.06 : 0.06);
+    ASSERT_TRUE(player_->start("a", mirrored, targets_.angles, ball));
+    step();
+    EXPECT_NEAR(angle(mirrored ? JointId::RLeg4 : JointId::LLeg4), -0.53, 1e-12);
+    EXPECT_NEAR(angle(mirrored ? JointId::RLeg2 : JointId::LLeg2), mirrored ? -0.01 : 0.01, 1e-12);
+  }
+}
+
 TEST_F(Player, PartsOfACycleCarryOver) {
   // Three moves of 30 ms end after 90 ms, not after three times two cycles.
   load(

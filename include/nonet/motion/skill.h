@@ -27,9 +27,37 @@ struct SkillParameter {
 /// Joints whose angle changes sign between left and right.
 bool mirrorsSign(model::JointId joint);
 
+/// A number of a skill that may depend on where the ball lies: `constant` + `perAhead` * a + `perAside` * b,
+/// with a and b how far ahead of its place (KickHead::p_RBall) and how far to the left of it the ball is
+/// believed to lie when the skill begins, m.
+struct BallValue {
+  double constant = 0.0;
+  double perAhead = 0.0;
+  double perAside = 0.0;
+
+  double at(const Vector2& offset) const { return constant + perAhead * offset.x() + perAside * offset.y(); }
+};
+
 struct JointGoal {
   model::JointId joint = model::JointId::Head1;
-  double angle = 0.0;  // rad, of this very joint (already mirrored for the right side)
+  BallValue angle;  // rad, of this very joint (already mirrored for the right side)
+  BallValue after;  // s, how long a swing waits with this joint
+};
+
+/// What a skill says of itself that kicks the ball: team, motion and the reports read it. For the left foot;
+/// the mirrored skill kicks with the right one.
+struct KickHead {
+  Vector2 p_RBall = Vector2::Zero();    // place of the ball seen from the stand, m
+  Vector2 tolerance = Vector2::Zero();  // how far from there it may lie, ahead and aside, m
+  double direction = 0.0;               // of the ball's way, robot frame, rad
+  double shortest = 0.0;                // distances that it serves, m
+  double longest = 0.0;
+  double contact = 0.0;      // s from the begin of the skill to the foot's contact with the ball
+  double room = 0.0;         // m that no opponent may be nearer to the ball
+  std::uint32_t types = 31;  // bit per robot type
+  bool fromWalk = false;     // begins out of steps; otherwise from a quiet stand
+
+  bool serves(int robotType) const { return ((types >> robotType) & 1U) != 0; }
 };
 
 /// Pose of a sole in the torso frame, or relative to the ball (curves "from ball").
@@ -70,6 +98,7 @@ struct Instruction {
   enum class Kind : std::uint8_t {
     MoveOver,   // to the goals in `value` seconds
     MoveAt,     // to the goals at `value` rad/s; the joint with the longest way decides the end
+    Swing,      // to the goals, every joint as fast as it can after its delay; over after `value` seconds
     Curve,      // one foot along a spline through `points`, to the goals beside it, in `value` seconds
     Wait,       // `value` seconds
     WaitUntil,  // the condition, at most `value` seconds
@@ -83,6 +112,7 @@ struct Instruction {
   };
   Kind kind = Kind::End;
   double value = 0.0;
+  BallValue duration;  // s, of MoveOver and Swing
   std::vector<JointGoal> joints;
   std::vector<FootGoal> feet;
   std::vector<FootGoal> points;  // of a curve, at most kMostPoints, all of one side
@@ -102,6 +132,7 @@ struct Instruction {
 struct Skill {
   std::string name;
   std::string file;
+  std::optional<KickHead> kick;
   std::vector<SkillParameter> parameters;
   std::vector<Instruction> program;
   std::vector<ConditionNode> conditions;

@@ -53,6 +53,7 @@ class SkillPlayer {
              const JointTargets& targets);
   void chooseGoals(const Instruction& instruction, bool mirrored);
   void place(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
+  void placeSwing(JointTargets& targets) const;
   void planCurve(const Instruction& instruction, bool mirrored, const world::WorldState& world);
   void placeFeet(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
   void placeOnCurve(double share, JointTargets& targets) const;
@@ -65,15 +66,17 @@ class SkillPlayer {
   model::JointArray stand_;
   std::array<Frame, SkillLibrary::kDeepestCall + 1> frames_{};
   int depth_ = 0;
-  double time_ = 0.0;            // since the start of the outermost skill, s
-  bool begun_ = false;           // the present instruction has begun
-  double inInstruction_ = 0.0;   // s
-  double duration_ = 0.0;        // of the present instruction, s
-  model::JointArray from_{};     // angles at its begin
-  model::JointArray to_{};       // at its end, where `moves_` says so
-  std::uint32_t moves_ = 0;      // bit per joint
-  FootPoses feetFrom_{};         // sole poses at its begin
-  std::optional<Vector2> ball_;  // given at the start
+  double time_ = 0.0;                     // since the start of the outermost skill, s
+  bool begun_ = false;                    // the present instruction has begun
+  double inInstruction_ = 0.0;            // s
+  double duration_ = 0.0;                 // of the present instruction, s
+  model::JointArray from_{};              // angles at its begin
+  model::JointArray to_{};                // at its end, where `moves_` says so
+  model::JointArray after_{};             // delays of a swing, s
+  std::uint32_t moves_ = 0;               // bit per joint
+  FootPoses feetFrom_{};                  // sole poses at its begin
+  std::optional<Vector2> ball_;           // given at the start
+  Vector2 ballOffset_ = Vector2::Zero();  // of it from the kick's place, left foot's side, m
   // The present curve, over its share 0..1: sole in the torso frame, m; attitude at the points, rad.
   HermiteSpline<Vector3, Instruction::kMostPoints + 1> curve_;
   std::array<Vector3, Instruction::kMostPoints + 1> curveAttitudes_{};
