@@ -152,8 +152,8 @@ int acceptFile(OptimizeArguments& arguments) {
   origin.version = NONET_VERSION;
   Console console;
   const lab::Measurement measurement =
-      lab::measure(task, parameters, origin.seeds.all(), config.taskSettings(dataFolder()), threadsOf(arguments),
-                   showTrials(console));
+      lab::measure(task, parameters, origin.seeds.all(), config.taskSettings(dataFolder()),
+                   threadsOf(arguments), showTrials(console));
   console.end();
   printMeasurement(measurement);
   origin.fitness = measurement.fitness;

@@ -185,8 +185,8 @@ class Parser : private SkillReader {
   }
 
   static bool isStatement(const SkillToken& token) {
-    static constexpr std::array<std::string_view, 10> kWords{
-        "move", "swing", "curve", "wait", "if", "repeat", "call", "stiffness", "end", "fail"};
+    static constexpr std::array<std::string_view, 10> kWords{"move",   "swing", "curve",     "wait", "if",
+                                                             "repeat", "call",  "stiffness", "end",  "fail"};
     return token.kind == Kind::Word && std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
   }
   static bool isTarget(const SkillToken& token) {

@@ -221,9 +221,8 @@ std::vector<Repetition> repeatLearned(const std::string& file, const std::string
   for (const Provenance& origin : readProvenance(file)) {
     const TaskSettings settings{
         .robotType = origin.robotType, .quickSolver = origin.quickSolver, .dataFolder = dataFolder};
-    repetitions.push_back(
-        {origin,
-         measure(findTask(origin.task), parameters, origin.seeds.all(), settings, threads, progress)});
+    repetitions.push_back({origin, measure(findTask(origin.task), parameters, origin.seeds.all(), settings,
+                                           threads, progress)});
   }
   return repetitions;
 }
