@@ -7,6 +7,8 @@
 #include <asio.hpp>
 #include <fmt/format.h>
 
+#include "nonet/world/ball_law.h"
+
 namespace nonet::app {
 namespace {
 
@@ -156,7 +158,8 @@ std::vector<std::string> robovizPicture(const agent::Agent& agent) {
   picture.line(X_FR.translation, X_FR * Vector2(0.4, 0.0), picture.ownColor(), "pose");
   if (world.ball.known) {
     picture.ball(world.ball.p_FB);
-    picture.line(world.ball.p_FB.head<2>(), world.ball.p_FRest, kGrey, "ball");
+    picture.line(world.ball.p_FB.head<2>(), world::restPlace({world.ball.p_FB, world.ball.v_FB}), kGrey,
+                 "ball");
   }
   drawRequest(picture, agent.action().motion, X_FR);
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {

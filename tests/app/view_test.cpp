@@ -16,7 +16,7 @@
 #include "nonet/math/random.h"
 #include "nonet/model/kinematics.h"
 #include "nonet/protocol/log_file.h"
-#include "nonet/sim/monitor.h"
+#include "nonet/sim/server/monitor.h"
 #include "nonet/sim/simulation.h"
 
 #include "app/browser.h"

@@ -25,7 +25,7 @@ Outcome approach(const Pose2& start, const Vector2& ball, const Vector2& target)
   scene.putBall(ball);
   for (int cycle = 0; cycle < 2000; ++cycle) {
     world.ball.p_RB = world.self.X_FR.inverse() * ball;
-    const auto request = std::get<motion::WalkTo>(handleBall(world, target, parameters, KickUse::Never));
+    const auto request = std::get<motion::WalkTo>(scene.handleBall(target, KickUse::Never));
     const double distance = request.target.translation.norm();
     const double step = std::min(0.01, distance);  // 0.5 m/s
     const Vector2 move =

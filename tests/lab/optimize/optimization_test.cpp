@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "nonet/config/parameters.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/optimize/optimization_run.h"
 #include "nonet/lab/optimize/optimize_report.h"
 #include "nonet/lab/optimize/solver_comparison.h"
