@@ -236,7 +236,7 @@ TEST(LearnedFile, OpensWithWhatWasReachedAndKeepsTheRuleOfItsSeeds) {
   origin.standardError = 0.25;
   origin.date = "2026-11-22";
   origin.seeds.add(SeedDraw{1, 0, 100});
-  const std::string text = learnedToml({}, {}, {"motion.walk.maxStep.x"}, {origin});
+  const std::string text = learnedToml({}, {}, {"motion.walk.gait.maxStepX"}, {origin});
   EXPECT_LT(text.find("quadratic"), text.find("[motion."));
   EXPECT_LT(text.find("[motion."), text.find("[provenance.quadratic]"));
   EXPECT_NE(text.find("seeds = [{ seed = 1, generation = 0, count = 100 }]"), std::string::npos);
