@@ -9,6 +9,8 @@
 #include "nonet/motion/limbs.h"
 #include "nonet/motion/skill_language.h"
 
+#include "skill_condition.h"
+#include "skill_kick_head.h"
 #include "skill_reader.h"
 
 namespace nonet::motion {
@@ -73,7 +75,7 @@ class Parser : private SkillReader {
       return token.text == "parameter" || token.text == "kick" || isStatement(token);
     };
     while (accept("parameter")) part([this] { parseParameter(); }, begins);
-    if (accept("kick")) part([this] { skill_.kick = kickHead(); }, begins);
+    if (accept("kick")) part([this] { skill_.kick = readKickHead(*this); }, begins);
     allowBall(skill_.kick.has_value());
     block();
     allowBall(false);
@@ -105,67 +107,6 @@ class Parser : private SkillReader {
     if (lookup_) parameter.value = lookup_(skill_.name, parameter.name).value_or(parameter.value);
     nameValue(parameter.name, {parameter.value, parameter.unit});
     skill_.parameters.push_back(std::move(parameter));
-  }
-
-  // What a kick says of itself; every line but the first may be left out.
-  KickHead kickHead() {
-    KickHead head;
-    expect("{");
-    while (!accept("}")) {
-      if (accept("ball")) {
-        head.p_RBall = pair(Unit::Metre);
-        if (accept("within")) head.tolerance = pair(Unit::Metre);
-      } else if (accept("direction")) {
-        head.direction = value(Unit::Radian);
-      } else if (accept("distance")) {
-        head.shortest = positive(Unit::Metre);
-        expect("..");
-        head.longest = positive(Unit::Metre);
-        if (head.longest < head.shortest) fail("the distances are the wrong way round");
-      } else if (accept("contact")) {
-        head.contact = positive(Unit::Second);
-      } else if (accept("room")) {
-        head.room = value(Unit::Metre);
-      } else if (accept("from")) {
-        head.fromWalk = accept("walk");
-        if (!head.fromWalk) expect("stand");
-      } else if (accept("types")) {
-        head.types = types();
-      } else {
-        fail(
-            fmt::format("'{}' does not belong into the head of a kick (ball direction distance contact room "
-                        "from types)",
-                        peek().text));
-      }
-    }
-    if (head.p_RBall.isZero() || head.longest == 0.0 || head.contact == 0.0) {
-      fail("the head of a kick needs at least 'ball', 'distance' and 'contact'");
-    }
-    return head;
-  }
-
-  Vector2 pair(Unit unit) {
-    Vector2 result;
-    expect("(");
-    result.x() = value(unit);
-    expect(",");
-    result.y() = value(unit);
-    expect(")");
-    return result;
-  }
-
-  std::uint32_t types() {
-    std::uint32_t mask = 0;
-    while (peek().kind == Kind::Number) {
-      const double type = peek().value;
-      if (type < 0.0 || type >= model::kRobotTypeCount || type != static_cast<int>(type)) {
-        fail("a robot type is a number from 0 to 4");
-      }
-      take();
-      mask |= 1U << static_cast<int>(type);
-    }
-    if (mask == 0) fail("'types' names at least one robot type");
-    return mask;
   }
 
   Instruction& emit(Instruction::Kind kind) {
@@ -290,12 +231,6 @@ class Parser : private SkillReader {
     instruction.feet.push_back(pose(foot));
   }
 
-  Side side() {
-    if (accept("left")) return Side::Left;
-    if (accept("right")) return Side::Right;
-    fail("expected 'left' or 'right'");
-  }
-
   FootGoal pose(Side side) {
     FootGoal goal;
     goal.side = side;
@@ -366,7 +301,7 @@ class Parser : private SkillReader {
       return;
     }
     instruction.kind = Instruction::Kind::WaitUntil;
-    instruction.condition = condition();
+    instruction.condition = readCondition(*this, skill_.conditions);
     expect("within");
     instruction.value = positive(Unit::Second);
   }
@@ -374,7 +309,7 @@ class Parser : private SkillReader {
   void branch() {
     const int test = here();
     emit(Instruction::Kind::Branch);
-    const int tested = condition();
+    const int tested = readCondition(*this, skill_.conditions);
     skill_.program[test].condition = tested;
     expect("{");
     block();
@@ -424,79 +359,6 @@ class Parser : private SkillReader {
     }
     for (std::size_t i = 0; i < model::kJointCount; ++i)
       instruction.joints.push_back({model::jointAt(i), {}, {}});
-  }
-
-  // -- conditions
-  int add(const ConditionNode& node) {
-    skill_.conditions.push_back(node);
-    return static_cast<int>(skill_.conditions.size()) - 1;
-  }
-  int condition() {
-    int left = conjunction();
-    while (accept("or")) {
-      const int right = conjunction();
-      left = add({ConditionNode::Kind::Or, left, right});
-    }
-    return left;
-  }
-  int conjunction() {
-    int left = term();
-    while (accept("and")) {
-      const int right = term();
-      left = add({ConditionNode::Kind::And, left, right});
-    }
-    return left;
-  }
-  int term() {
-    using Node = ConditionNode::Kind;
-    if (accept("not")) {
-      enter();
-      const int inner = term();
-      leave();
-      return add({Node::Not, inner});
-    }
-    if (accept("upright")) return add({Node::Upright});
-    if (accept("contact")) return add({side() == Side::Left ? Node::ContactLeft : Node::ContactRight});
-    if (accept("fallen")) {
-      if (accept("front")) return add({Node::FallenFront});
-      if (accept("back")) return add({Node::FallenBack});
-      if (accept("left")) return add({Node::FallenLeft});
-      if (accept("right")) return add({Node::FallenRight});
-      return add({Node::Fallen});
-    }
-    return comparison();
-  }
-  int comparison() {
-    struct QuantityWord {
-      std::string_view name;
-      Quantity quantity;
-      Unit unit;
-    };
-    static constexpr std::array<QuantityWord, 8> kQuantities{
-        {{"time", Quantity::Time, Unit::Second},
-         {"pitch", Quantity::Pitch, Unit::Radian},
-         {"roll", Quantity::Roll, Unit::Radian},
-         {"rate", Quantity::Rate, Unit::RadianPerSecond},
-         {"height", Quantity::Height, Unit::Metre},
-         {"ballDistance", Quantity::BallDistance, Unit::Metre},
-         {"ballX", Quantity::BallX, Unit::Metre},
-         {"ballY", Quantity::BallY, Unit::Metre}}};
-    for (const QuantityWord& quantity : kQuantities) {
-      if (!accept(quantity.name)) continue;
-      ConditionNode node;
-      node.quantity = quantity.quantity;
-      if (accept("<")) {
-        node.kind = ConditionNode::Kind::Less;
-      } else {
-        expect(">");
-        node.kind = ConditionNode::Kind::Greater;
-      }
-      node.value = value(quantity.unit);
-      return add(node);
-    }
-    fail(fmt::format(
-        "'{}' is no condition (upright fallen contact time pitch roll height ballDistance ballX ballY)",
-        peek().text));
   }
 
   const ParameterLookup& lookup_;

@@ -186,4 +186,20 @@ Vector3 SkillReader::vector(Unit unit) {
   return result;
 }
 
+Vector2 SkillReader::pair(Unit unit) {
+  Vector2 result;
+  expect("(");
+  result.x() = value(unit);
+  expect(",");
+  result.y() = value(unit);
+  expect(")");
+  return result;
+}
+
+model::Side SkillReader::side() {
+  if (accept("left")) return model::Side::Left;
+  if (accept("right")) return model::Side::Right;
+  fail("expected 'left' or 'right'");
+}
+
 }  // namespace nonet::motion

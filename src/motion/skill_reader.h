@@ -70,6 +70,10 @@ class SkillReader {
   void allowBall(bool allowed) { ballAllowed_ = allowed; }
   /// "(x, y, z)"
   Vector3 vector(config::Unit unit);
+  /// "(x, y)"
+  Vector2 pair(config::Unit unit);
+  /// "left" or "right".
+  model::Side side();
 
   /// Parameters stand for their values from here on.
   void nameValue(const std::string& name, const SkillValue& value) { named_[name] = value; }
