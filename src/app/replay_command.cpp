@@ -39,7 +39,7 @@ std::string writeMap(const lab::LocalizationReport& report, const std::string& l
                      const std::string& folder) {
   std::filesystem::create_directories(folder);
   const std::filesystem::path name = std::filesystem::path(log).filename();
-  const std::string path = (std::filesystem::path(folder) / name).string() + ".svg";
+  std::string path = (std::filesystem::path(folder) / name).string() + ".svg";
   std::ofstream file(path);
   file << report.toSvg();
   if (!file.flush()) throw std::runtime_error("cannot write " + path);
