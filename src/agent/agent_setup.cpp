@@ -17,13 +17,13 @@ constexpr std::string_view kStartMark = "start ";  // x, y in m, heading in rad,
 
 // Without its data an agent would play on, crippled: without kicks and rises, at half the speed.
 std::string skillFolderIn(const std::string& dataFolder) {
-  const std::string folder = dataFolder + "/skills";
+  std::string folder = dataFolder + "/skills";
   if (!motion::skillFiles(folder).empty()) return folder;
   throw config::ParameterError(folder + ": there are no skills (*.skl): is this the folder of Nonet's data?");
 }
 
 std::string learnedFileIn(const std::string& dataFolder, int robotType) {
-  const std::string file = dataFolder + "/params/type" + std::to_string(robotType) + ".toml";
+  std::string file = dataFolder + "/params/type" + std::to_string(robotType) + ".toml";
   if (std::filesystem::exists(file)) return file;
   throw config::ParameterError(file + ": is missing: it holds the learned values of robot type " +
                                std::to_string(robotType));

@@ -106,7 +106,7 @@ Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& p
   const Vector2 toGoal = Vector2(0.5 * world.field.length, 0.0) - ball;
   const bool inFront = std::abs(toGoal.y()) < toGoal.x() + 0.5 * world.field.goalWidth - p.atGoalInside;
   if (toGoal.norm() < p.atGoal && inFront) return openGoal(world, p, record);
-  const Vector2 target = goalTarget(world, p);
+  Vector2 target = goalTarget(world, p);
   if (barred(world, p, angleOf(target - ball)) == 0.0) return target;
   return aroundOpponents(world, p, target, record);
 }
