@@ -15,6 +15,7 @@ int run(int argc, char** argv) {
   nonet::app::addMatchCommand(app, exitCode);
   nonet::app::addSeriesCommand(app, exitCode);
   nonet::app::addStatisticsCommand(app, exitCode);
+  nonet::app::addReportCommand(app, exitCode);
   nonet::app::addReplayCommand(app, exitCode);
   nonet::app::addFidelityCommand(app, exitCode);
   nonet::app::addBenchCommand(app, exitCode);
