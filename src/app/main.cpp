@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   nonet::app::addStatisticsCommand(app, exitCode);
   nonet::app::addExplainCommand(app, exitCode);
   nonet::app::addViewCommand(app, exitCode);
+  nonet::app::addReportCommand(app, exitCode);
   nonet::app::addReplayCommand(app, exitCode);
   nonet::app::addFidelityCommand(app, exitCode);
   nonet::app::addBenchCommand(app, exitCode);

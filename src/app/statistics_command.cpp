@@ -42,7 +42,8 @@ std::string table(const ordered_json& statistics, const std::array<std::string, 
   for (const char* group : {"set_pieces", "fouls"}) {
     ordered_json kinds = left.at(group);
     kinds.update(right.at(group));
-    for (const auto& [kind, unused] : kinds.items()) {
+    for (const auto& item : kinds.items()) {
+      const std::string& kind = item.key();
       const auto cell = [&](const ordered_json& team) {
         if (!team.at(group).contains(kind)) return std::string("0");
         const ordered_json& value = team.at(group).at(kind);

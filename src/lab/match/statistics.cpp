@@ -122,8 +122,8 @@ void MatchStatistics::sample(const Frame& frame, double step) {
   thirds_[static_cast<std::size_t>(cell(p.x(), field_.length, 3))] += step;
   const int columns = static_cast<int>(std::lround(field_.length));
   const int rows = static_cast<int>(std::lround(field_.width));
-  ++ballPlaces_[static_cast<std::size_t>(cell(p.y(), field_.width, rows) * columns +
-                                         cell(p.x(), field_.length, columns))];
+  const int place = cell(p.y(), field_.width, rows) * columns + cell(p.x(), field_.length, columns);
+  ++ballPlaces_[static_cast<std::size_t>(place)];
   if (ballPath_.empty() || frame.time >= ballPath_.back()[0] + 1.0 - kTiny)
     ballPath_.push_back({frame.time, p.x(), p.y()});
   if (touch_) teamAt(touch_->team).possession += step;
@@ -151,8 +151,9 @@ void MatchStatistics::sampleRobots(const Frame& frame, double step, bool inPlay)
     }
     if (!inPlay) continue;
     const Vector2 p = frame.seenBy(robot.team, robot.p_W);
-    ++player.places[static_cast<std::size_t>(cell(p.y(), field_.width, kPlaceRows) * kPlaceColumns +
-                                             cell(p.x(), field_.length, kPlaceColumns))];
+    const int row = cell(p.y(), field_.width, kPlaceRows);
+    const int place = row * kPlaceColumns + cell(p.x(), field_.length, kPlaceColumns);
+    ++player.places[static_cast<std::size_t>(place)];
   }
 }
 

@@ -79,7 +79,7 @@ void MatchStatistics::touched(const Frame& frame, const FrameRobot& robot, const
   if (!same) {
     closeTouch("", p_W, robot.team, robot.unum);
     ++player(robot.team, robot.unum).touches;
-    touch_.emplace();
+    touch_ = Touch{};
     touch_->team = robot.team;
     touch_->unum = robot.unum;
     touch_->begin = frame.time;

@@ -155,7 +155,8 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
     MeasuredRobot& robot = remote ? *remote : *own;
     Walk& walk = walks[static_cast<std::size_t>(i)];
     if (i < directions) {
-      walk = walkInDirection(robot, settings, 2.0 * kPi * (i / trials) / kWalkDirections, seed);
+      const int direction = i / trials;
+      walk = walkInDirection(robot, settings, 2.0 * kPi * direction / kWalkDirections, seed);
     } else if (i < directions + trials) {
       walk = walkTenSeconds(robot, settings, seed);
     } else {
