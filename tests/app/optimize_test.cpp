@@ -105,13 +105,6 @@ TEST_F(Optimize, AcceptsForTheTypeThatTheFileWasLearnedFor) {
   EXPECT_THAT(text("b.toml"), HasSubstr("robotType = 4"));
 }
 
-TEST_F(Optimize, SaysHowFarARepetitionIs) {
-  ASSERT_EQ(run({"quadratic", "--out", folder.file("run"), "--generations", "1"}).first, 0);
-  const auto [code, output] = run({"--repeat", folder.file("run/best.toml")});
-  EXPECT_EQ(code, 0) << output;
-  EXPECT_THAT(output, HasSubstr(" of 16 trials"));
-}
-
 TEST_F(Optimize, ASignalEndsItWithWhatIsLearned) {
   Program program({"optimize", "quadratic", "--out", folder.file("run"), "--generations", "1000000",
                    "--restarts", "ipop"},
