@@ -166,7 +166,7 @@ SeriesResult Series::result() const {
 }
 
 SeriesResult Series::finish() {
-  const SeriesResult end = result();
+  SeriesResult end = result();
   for (auto record = records_.begin(); record != records_.end();) {
     record = record->first >= end.games ? records_.erase(record) : std::next(record);
   }

@@ -37,7 +37,8 @@ std::string heatMap(const std::vector<double>& values, int columns, int rows, co
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       // The root keeps seldom visited places visible.
-      const double share = std::sqrt(values[static_cast<std::size_t>(row * columns + column)] / most);
+      const int place = row * columns + column;
+      const double share = std::sqrt(values[static_cast<std::size_t>(place)] / most);
       if (share < 0.02) continue;
       svg += fmt::format("<rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}' opacity='{:.2f}'/>",
                          column * width - field.length / 2.0, field.width / 2.0 - (row + 1) * height, width,
