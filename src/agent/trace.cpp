@@ -65,10 +65,7 @@ class RequestWriter {
     return {{"kind", "skill"}, {"skill", std::string(skill.name.view())}, {"side", sideName(skill.side)}};
   }
   ordered_json operator()(const motion::KickTo& kick) const {
-    return {{"kind", "kick"},
-            {"ball", place(X_FR_ * kick.ball)},
-            {"target", place(X_FR_ * kick.target)},
-            {"side", sideName(kick.foot)}};
+    return {{"kind", "kick"}, {"ball", place(X_FR_ * kick.ball)}, {"target", place(X_FR_ * kick.target)}};
   }
 
  private:

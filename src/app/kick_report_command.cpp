@@ -1,11 +1,14 @@
-// nonet kick-report: how far and how straight the robot kicks.
+// nonet kick-report: how far, how straight and how soon the robot kicks.
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/kick_report.h"
 
 namespace nonet::app {
@@ -15,34 +18,55 @@ namespace {
 struct KickReportArguments {
   agent::AgentChoice choice;
   lab::KickReportSettings settings;
-  bool walking = false;
+  std::string data;
+  std::string svg;
   bool json = false;
 };
 
 int run(const KickReportArguments& arguments) {
+  spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  if (arguments.walking) settings.from = lab::KickFrom::Walk;
-  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder()));
-  const lab::KickReport report = lab::measureKicks(settings);
-  fmt::print("{}", arguments.json ? lab::kickReportJson(report) : lab::kickReportTable(report));
+  settings.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
+  const std::vector<lab::KickStatistics> report = lab::measureKicks(settings);
+  fmt::print("{}", arguments.json ? lab::kickReportJson(report, settings) : lab::kickReportTable(report));
+  if (arguments.svg.empty()) return 0;
+  for (const lab::KickStatistics& kick : report) {
+    const std::string path = fmt::format("{}{}.svg", arguments.svg, kick.name);
+    lab::writeAtomically(path, lab::kickReportSvg(kick));
+    fmt::print(stderr, "{}\n", path);
+  }
   return 0;
 }
 
 }  // namespace
 
 void addKickReportCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("kick-report", "Measure seeded kicks: distance, direction, falls");
+  CLI::App* command = app.add_subcommand(
+      "kick-report", "Measure seeded kicks with their approach: distance, height, direction, time, falls");
   const auto arguments = std::make_shared<KickReportArguments>();
+  lab::KickReportSettings& settings = arguments->settings;
   command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
+  command->add_option("--kick", settings.kick, "Name of a kick, all, or any: the one that motion chooses");
+  command->add_option("--data", arguments->data, "Folder with params/ and skills/");
   command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
       ->check(CLI::ExistingFile);
-  command->add_option("--kicks", arguments->settings.kicks, "Kicks with each foot")
+  command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");
+  command->add_option("--trials,--kicks", settings.trials, "Kicks of each kind")
       ->check(CLI::Range(1, 100000));
+  command->add_option("--start", settings.start, "Distance from which the robot comes, m")
+      ->check(CLI::Range(0.2, 5.0));
+  command->add_option("--rolling", settings.rolling, "Fastest speed of the ball at the begin, m/s")
+      ->check(CLI::Range(0.0, 3.0));
+  command->add_option("--distance", settings.distance, "How far the ball should go, m")
+      ->check(CLI::Range(0.5, 25.0));
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
-  command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
-  command->add_flag("--walking", arguments->walking, "Out of slow steps instead of from the stand");
+  command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
+  command->add_option("--svg", arguments->svg, "Draw the balls' ways: SVG + name of the kick + .svg");
   command->add_flag("--json", arguments->json, "Print JSON");
+  command->footer(
+      "Examples:\n  nonet kick-report --type 4\n  nonet kick-report --kick kick_power --json\n"
+      "  nonet kick-report --kick any --rolling 0.3 --start 1.5 --svg fan_");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }
 

@@ -5,14 +5,12 @@
 
 #include "nonet/motion/fall_control.h"
 #include "nonet/motion/head_control.h"
+#include "nonet/motion/kick_control.h"
 #include "nonet/motion/walk/control.h"
 
 namespace nonet::motion {
 
 namespace {
-
-constexpr double kKickRate = 0.35;   // rad/s, of the torso before a kick
-constexpr double kKickQuiet = 0.04;  // s, so long: a robot that rocks on its feet is quiet only for a moment
 
 // Takes out the jump when another source of targets takes over: the difference to what was commanded last
 // fades away.
@@ -44,6 +42,8 @@ struct Motion::Stages {
          const std::string& skillFolder)
       : parameters(motionParameters),
         library(skillFolder, motionParameters.skills),
+        catalogue(library, robot.type()),
+        kicks(catalogue, motionParameters.kick),
         stand(
             WalkEngine::standAngles(robot, motionParameters.sets.of(motionParameters.selection.standSet()))),
         player(robot, library, stand),
@@ -54,11 +54,14 @@ struct Motion::Stages {
   enum class Mode : std::uint8_t { Walk, Skill, Fall };
 
   bool updateSkill(const world::WorldState& world, const MotionRequest& request);
-  bool startSkill(const MotionRequest& request);
+  bool startSkill(const PlaySkill& request);
+  bool startKick(const KickTo& request);
   void updateWalk(const world::WorldState& world, const MotionRequest& request);
 
   MotionParameters parameters;
   SkillLibrary library;
+  KickCatalogue catalogue;
+  KickControl kicks;
   model::JointArray stand;
   SkillPlayer player;
   WalkControl walk;
@@ -68,8 +71,11 @@ struct Motion::Stages {
   JointTargets targets;
   MotionState state;
   Mode mode = Mode::Walk;
-  std::optional<PlaySkill> begun;  // the skill that was begun and is still asked for
-  bool skillDone = false;          // the request that is still made was carried out
+  std::optional<PlaySkill> begun;          // the skill that was begun and is still asked for
+  bool skillDone = false;                  // the request that is still made was carried out
+  std::optional<MotionRequest> kickSteps;  // to the place for the kick that is asked for
+  std::string_view kickName;               // of the one that runs
+  bool skillEnded = false;                 // in the last cycle: the walk begins anew
   bool started = false;
   bool putDown = false;  // its steps are over
   double quiet = 0.0;    // s, for which the robot has stood still
@@ -78,52 +84,69 @@ struct Motion::Stages {
 // A skill or kick that has begun is played to its end.
 bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionRequest& request) {
   if (mode != Mode::Skill) {
+    kickSteps.reset();
     const auto* skill = std::get_if<PlaySkill>(&request);
-    const bool wanted = skill != nullptr || std::holds_alternative<KickTo>(request);
+    const auto* kick = std::get_if<KickTo>(&request);
+    const bool wanted = skill != nullptr || kick != nullptr;
     // A skill is played once for a request, however long it is made; a ball that still lies there is kicked
     // again.
     const bool same = skill != nullptr && begun == *skill;
     if (!wanted) begun.reset();
+    if (kick == nullptr) kicks.reset();
     if (!wanted || (skillDone && same)) {
       skillDone = skillDone && wanted;
       return false;
     }
     skillDone = false;
     begun = skill != nullptr ? std::optional(*skill) : std::nullopt;
-    if (!startSkill(request)) return false;
+    if (!(skill != nullptr ? startSkill(*skill) : startKick(*kick))) return false;
+    mode = Mode::Skill;
   }
   state.busy = true;
+  state.kick = kickName;
   if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
   state.skillFinished = true;
   skillDone = true;
+  skillEnded = true;
   mode = Mode::Walk;
   return true;
 }
 
-bool Motion::Stages::startSkill(const MotionRequest& request) {
-  bool started = false;
-  if (const auto* kick = std::get_if<KickTo>(&request)) {
-    if (quiet < kKickQuiet) return false;
-    started = player.start("kick_forward", kick->foot == model::Side::Right, targets.angles, kick->ball);
-  } else if (const auto* skill = std::get_if<PlaySkill>(&request)) {
-    started = player.start(skill->name, skill->side == model::Side::Right, targets.angles);
+bool Motion::Stages::startSkill(const PlaySkill& request) {
+  kickName = {};
+  if (player.start(request.name, request.side == model::Side::Right, targets.angles)) return true;
+  state.skillFinished = true;  // no such skill: nothing to wait for
+  skillDone = true;
+  return false;
+}
+
+bool Motion::Stages::startKick(const KickTo& request) {
+  const KickStep step = kicks.update(request, walk.engine(), quiet);
+  if (step.option == nullptr) return false;
+  state.kick = step.option->name;
+  state.kickInPlace = step.inPlace;
+  if (step.begin &&
+      player.start(step.option->name, step.option->foot == model::Side::Right, targets.angles, step.ball)) {
+    kickName = step.option->name;
+    kicks.reset();
+    return true;
   }
-  if (!started) {
-    state.skillFinished = true;  // no such skill: nothing to wait for
-    skillDone = true;
-    return false;
+  if (step.stand) {
+    kickSteps.emplace(Stand{});
+  } else {
+    kickSteps.emplace(step.walk);
   }
-  mode = Mode::Skill;
-  return true;
+  return false;
 }
 
 void Motion::Stages::updateWalk(const world::WorldState& world, const MotionRequest& request) {
-  const bool back = mode != Mode::Walk || !started || state.skillFinished || putDown;
+  const bool back = mode != Mode::Walk || !started || skillEnded || putDown;
   putDown = false;
+  skillEnded = false;
   if (back) walk.reset();
   const model::JointArray before = started ? targets.angles : world.body.joints;
   mode = Mode::Walk;
-  walk.update(world, request, targets);
+  walk.update(world, kickSteps ? *kickSteps : request, targets);
   if (back) transition.begin(before, targets.angles, parameters.transition.standTime);
   transition.apply(world.body.cycleTime, targets.angles);
 }
@@ -150,10 +173,11 @@ const JointTargets& Motion::update(const world::WorldState& world, const MotionR
   s.state = MotionState{};
   s.state.request = request;
   s.state.beam = beam;
+  s.state.kicks = s.catalogue.options();
   s.putDown = s.putDown || beam.has_value();
   const bool skillRuns = s.mode == Stages::Mode::Skill;
-  const bool still = s.walk.standing() && world.body.gyro.norm() < kKickRate && world.body.footContact[0] &&
-                     world.body.footContact[1];
+  const bool still = s.walk.standing() && world.body.gyro.norm() < s.parameters.kick.quietRate &&
+                     world.body.footContact[0] && world.body.footContact[1];
   s.quiet = still ? s.quiet + world.body.cycleTime : 0.0;
   if (!skillRuns && s.started && s.fall.update(world, s.player, s.targets)) {
     s.mode = Stages::Mode::Fall;

@@ -118,7 +118,7 @@ SkillPlayer::Outcome SkillPlayer::execute(const Instruction& instruction, const 
   using Kind = Instruction::Kind;
   Frame& frame = top();
   const bool first = !begun_;
-  if (first) begin(instruction, frame.mirrored, world, targets);
+  if (first) begin(skill, instruction, frame.mirrored, world, targets);
   switch (instruction.kind) {
     case Kind::MoveOver:
     case Kind::MoveAt:
@@ -179,8 +179,8 @@ SkillPlayer::Outcome SkillPlayer::execute(const Instruction& instruction, const 
   return Outcome::Next;
 }
 
-void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const world::WorldState& world,
-                        const JointTargets& targets) {
+void SkillPlayer::begin(const Skill& skill, const Instruction& instruction, bool mirrored,
+                        const world::WorldState& world, const JointTargets& targets) {
   begun_ = true;
   inInstruction_ = 0.0;
   duration_ = instruction.value;
@@ -193,6 +193,7 @@ void SkillPlayer::begin(const Instruction& instruction, bool mirrored, const wor
     if (targets.stiffness[i] == 0.0) from_[i] = world.body.joints[i];
   }
   chooseGoals(instruction, mirrored);
+  if (skill.kick && instruction.kind == Instruction::Kind::MoveOver) keepReachable();
   if (instruction.kind == Instruction::Kind::MoveAt) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < model::kJointCount; ++i) {
@@ -243,6 +244,16 @@ void SkillPlayer::chooseGoals(const Instruction& instruction, bool mirrored) {
     to_[i] = goal.angle.at(ballOffset_);
     after_[i] = goal.after.at(ballOffset_);
     moves_ |= 1U << i;
+  }
+}
+
+// What a kick asks of a joint may be too far for its time; the next statement begins where the joint is then.
+void SkillPlayer::keepReachable() {
+  for (const model::JointSpec& joint : model_->joints()) {
+    const std::size_t i = model::index(joint.id);
+    if (((moves_ >> i) & 1U) == 0) continue;
+    const double way = joint.maxSpeed * duration_;
+    to_[i] = from_[i] + std::clamp(to_[i] - from_[i], -way, way);
   }
 }
 

@@ -49,21 +49,6 @@ Vector2 openGoal(const world::WorldState& world, const BallTargetParameters& p, 
   return best;
 }
 
-// Of an opponent near the ball, how much it bars this direction, 0 .. 1.
-double barred(const world::WorldState& world, const BallTargetParameters& p, double direction) {
-  double most = 0.0;
-  for (const world::PlayerState& player : world.opponents) {
-    if (!player.known) continue;
-    const Vector2 offset = player.X_FP.translation - world.ball.p_FB.head<2>();
-    const double distance = offset.norm();
-    if (distance > p.barReach) continue;
-    const double angle = std::abs(angleDifference(angleOf(offset), direction));
-    const double nearness = 1.0 - distance / p.barReach;
-    most = std::max(most, nearness * std::clamp(2.0 - angle / p.barWidth, 0.0, 1.0));
-  }
-  return most;
-}
-
 // The direction nearest to the straight one that no opponent bars.
 Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParameters& p, const Vector2& target,
                         Candidates* record) {
@@ -87,6 +72,20 @@ Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParamete
 }
 
 }  // namespace
+
+double barred(const world::WorldState& world, const BallTargetParameters& p, double direction) {
+  double most = 0.0;
+  for (const world::PlayerState& player : world.opponents) {
+    if (!player.known) continue;
+    const Vector2 offset = player.X_FP.translation - world.ball.p_FB.head<2>();
+    const double distance = offset.norm();
+    if (distance > p.barReach) continue;
+    const double angle = std::abs(angleDifference(angleOf(offset), direction));
+    const double nearness = 1.0 - distance / p.barReach;
+    most = std::max(most, nearness * std::clamp(2.0 - angle / p.barWidth, 0.0, 1.0));
+  }
+  return most;
+}
 
 double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest) {
   const Vector2 way = to - from;

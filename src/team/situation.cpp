@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "nonet/team/ball_choice.h"
+
 namespace nonet::team {
 
 namespace {
@@ -122,7 +124,7 @@ bool goalieWantsBall(const Situation& s, bool claims) {
   });
 }
 
-std::optional<BallPlay> ownTurn(const Situation& s) {
+std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {
   if (!s.acts()) return std::nullopt;
   if (s.role == Role::Goalie) {
     if (!s.claims) return std::nullopt;
@@ -137,8 +139,14 @@ std::optional<BallPlay> ownTurn(const Situation& s) {
     return playTowards(s, s.setPlay->p_FTarget, use, wait);
   }
   if (!s.mayTouch) return std::nullopt;
-  BallPlay play = playTowards(s, s.p_FTarget, KickUse::IfFree);
-  play.candidates = s.targets;
+  if (!s.parameters.choice.use || s.phase() != world::Phase::PlayOn) {
+    BallPlay play = playTowards(s, s.p_FTarget, KickUse::IfFree);
+    play.candidates = s.targets;
+    return play;
+  }
+  const BallChoice choice = chooseAction(s, record);
+  BallPlay play = playTowards(s, choice.p_FTarget, choice.kick ? KickUse::Clear : KickUse::Never);
+  if (record != nullptr) play.candidates = record->all();
   return play;
 }
 

@@ -19,7 +19,7 @@ Situation SituationTracker::update(const world::WorldState& world, const motion:
     claims_ = situation.mayTouch && goalieWantsBall(situation, claims_);
   situation.claims = claims_;
   situation.lastBeam = lastBeam_;
-  situation.play = ownTurn(situation);
+  situation.play = ownTurn(situation, recording_ ? &targets_ : nullptr);
   return situation;
 }
 

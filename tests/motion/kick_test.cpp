@@ -1,41 +1,70 @@
-// Kicks on the physics, at reduced counts: `nonet kick-report` measures fifty with each foot.
-#include <cmath>
+// Kicks with their approach, at reduced counts: `nonet kick-report` measures a hundred of each.
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/lab/reports/kick_report.h"
 #include "nonet/math/angle.h"
-
-#include "motion/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
 
+KickReportSettings settingsOf(int type) {
+  agent::AgentChoice choice;
+  choice.robotType = type;
+  KickReportSettings settings;
+  settings.agent = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  return settings;
+}
+
 class Kicking : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, Kicking, testing::Range(0, model::kRobotTypeCount));
 
-TEST_P(Kicking, GoesFarAndStraightWithEitherFoot) {
-  const TrialSetup setup = agentTrialSetup(GetParam());
-  constexpr int kKicks = 6;
-  int good = 0;
-  for (int i = 0; i < kKicks; ++i) {
-    const auto side = static_cast<model::Side>(i % 2);
-    const Kick kick = kickOnce(setup, side, KickFrom::Stand, static_cast<std::uint64_t>(i + 1));
-    EXPECT_LT(kick.duration, 1.0);
-    const bool straight = std::abs(kick.direction()) < toRadians(10.0);
-    if (!kick.fell && straight && kick.forward > 2.5) ++good;
-  }
-  EXPECT_GE(good, kKicks - 1);
+TEST_P(Kicking, GoesFarAndStraightFromAllSides) {
+  KickReportSettings settings = settingsOf(GetParam());
+  settings.kick = "any";
+  settings.trials = 40;
+  const KickStatistics kicks = measureKicks(settings).at(0);
+  EXPECT_GT(kicks.distance.median, 5.5);
+  EXPECT_GT(kicks.distance.p10, 4.5);
+  EXPECT_LT(kicks.under2m, 0.06);
+  EXPECT_LT(kicks.falls, 0.15);
+  EXPECT_GT(kicks.withinTen, 0.9);
+  EXPECT_LT(kicks.time.median, 6.0);
 }
 
 TEST(KickReport, DoesNotDependOnTheNumberOfThreads) {
-  KickReportSettings settings;
-  settings.setup = agentTrialSetup(0);
-  settings.kicks = 2;
+  KickReportSettings settings = settingsOf(0);
+  settings.kick = kickNames(settings.agent).at(0);
+  settings.trials = 3;
   settings.threads = 1;
-  const std::string alone = kickReportJson(measureKicks(settings));
+  const std::string alone = kickReportJson(measureKicks(settings), settings);
   settings.threads = 3;
-  EXPECT_EQ(kickReportJson(measureKicks(settings)), alone);
+  EXPECT_EQ(kickReportJson(measureKicks(settings), settings), alone);
+}
+
+TEST(KickReport, NamesTheKicksWhenThereIsNoneOfThatName) {
+  KickReportSettings settings = settingsOf(0);
+  settings.kick = "kick_nowhere";
+  try {
+    measureKicks(settings);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find(kickNames(settings.agent).at(0)), std::string::npos);
+  }
+}
+
+TEST(KickReport, MeasuresTheFanOfTheBallsWays) {
+  KickReportSettings settings = settingsOf(4);
+  settings.kick = "any";
+  settings.trials = 2;
+  const KickStatistics kicks = measureKicks(settings).at(0);
+  const std::string svg = kickReportSvg(kicks);
+  EXPECT_EQ(std::count(svg.begin(), svg.end(), '\n') > 20, true);
+  for (const Kick& kick : kicks.kicks) {
+    EXPECT_EQ(kick.path.empty(), !kick.contact);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // A scene on the field for tests of the team: what one robot believes, and what it decides.
 #pragma once
 
+#include <array>
+
 #include "nonet/team/behaviors.h"
 #include "nonet/team/situation.h"
 #include "nonet/team/strategy.h"
@@ -18,6 +20,13 @@ struct Scene {
     world.ball.lastSeen = world.time;
     stand(Pose2());
     putBall({1.0, 0.0});
+    static const std::array<motion::KickOption, 1> kicks = [] {
+      motion::KickOption kick;
+      kick.head.shortest = 3.0;
+      kick.head.longest = 7.0;
+      return std::array{kick};
+    }();
+    motion.kicks = kicks;  // the body can kick; how is its own business
   }
   void stand(const Pose2& X_FR) {
     world.self.X_FR = X_FR;

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "nonet/math/pose2.h"
+#include "nonet/motion/kick_catalogue.h"
 #include "nonet/motion/request.h"
 
 namespace nonet::motion {
@@ -14,6 +17,10 @@ struct MotionState {
   bool busy = false;           // a skill or kick runs that must not be interrupted
   bool skillFinished = false;  // the requested skill ended in this cycle
   std::optional<Pose2> beam;   // asked for in the last cycle, own field frame
+  std::string_view kick;       // name of the kick that is chosen or runs; empty: none
+  bool kickInPlace = false;    // the ball lies where that kick wants it
+
+  std::span<const KickOption> kicks;  // all that this robot can do
 
   bool askedForKick() const { return std::holds_alternative<KickTo>(request); }
 };

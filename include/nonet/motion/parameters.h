@@ -4,6 +4,7 @@
 #include "nonet/config/parameters.h"
 #include "nonet/motion/fall_control.h"
 #include "nonet/motion/head_control.h"
+#include "nonet/motion/kick_control.h"
 #include "nonet/motion/skill_parameters.h"
 #include "nonet/motion/walk/control.h"
 
@@ -47,6 +48,7 @@ struct MotionParameters {
   WalkSets sets;
   HeadParameters head;
   FallParameters fall;
+  KickParameters kick;
   SkillParameters skills;
 
   template <class Self, class Visitor>
@@ -60,6 +62,7 @@ struct MotionParameters {
     visit.group("positioning", self.sets.positioning);
     visit.group("head", self.head);
     visit.group("fall", self.fall);
+    visit.group("kick", self.kick);
     visit.group("skills", self.skills);
   }
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <variant>
 
 #include "nonet/math/inline_string.h"
@@ -38,12 +39,14 @@ struct PlaySkill {
   friend bool operator==(const PlaySkill&, const PlaySkill&) = default;
 };
 
-/// Kicks the ball that lies at `ball` towards `target` (both in the present robot frame, m) with this foot.
-/// The kick begins once the robot stands quietly.
+/// Kicks the ball that lies at `ball` so that it comes to rest at `target` (both in the present robot frame,
+/// m). Motion chooses kick and foot, takes the last steps and begins when the ball lies right.
 struct KickTo {
   Vector2 ball = Vector2::Zero();
   Vector2 target = Vector2::Zero();
-  model::Side foot = model::Side::Left;
+  Vector2 ballVelocity = Vector2::Zero();                 // robot axes, m/s
+  double room = std::numeric_limits<double>::infinity();  // m, from the ball to the nearest opponent
+  InlineString<32> kick;                                  // this one only; empty: the cheapest
 };
 
 /// Rising from a fall needs no request: motion does it by itself unless a skill runs.

@@ -49,8 +49,9 @@ class SkillPlayer {
                   double& budget, JointTargets& targets);
   bool holds(const Skill& skill, int node, bool mirrored, const world::WorldState& world) const;
   double quantity(Quantity quantity, bool mirrored, const world::WorldState& world) const;
-  void begin(const Instruction& instruction, bool mirrored, const world::WorldState& world,
-             const JointTargets& targets);
+  void begin(const Skill& skill, const Instruction& instruction, bool mirrored,
+             const world::WorldState& world, const JointTargets& targets);
+  void keepReachable();
   void chooseGoals(const Instruction& instruction, bool mirrored);
   void place(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
   void placeSwing(JointTargets& targets) const;

@@ -125,24 +125,16 @@ struct BallHandlingParameters {
   double alignedAngle = 0.45;
   double alignedAside = 0.10;
   bool kick = true;
-  double kickAhead = 0.165;
-  double kickAheadTolerance = 0.03;
-  double kickAside = 0.055;
-  double kickAsideTolerance = 0.03;
-  double kickAngle = 0.2;
   double kickApproach = 1.2;
-  double kickGain = 3.5;
-  double kickLeastSpeed = 0.1;
-  double kickOpponentDistance = 1.8;
+  double kickOpponentDistance = 0.8;
   double kickLane = 0.3;
   double handleDistance = 0.9;
   double waitBehind = 0.35;
-  double kickStay = 1.5;
-  double kickPress = 0.4;
+  double kickPress = 0.6;
   double kickLaneLength = 3.0;
   double kickRolling = 0.3;
-  double kickMostSpeed = 0.8;
-  double kickBehind = 0.5;
+  double kickBehind = 0.08;
+  double kickBesides = 0.055;
   double alignedBehind = 0.05;
   double circleBehind = 0.5;
   double faceAway = 1.0;
@@ -175,33 +167,12 @@ struct BallHandlingParameters {
            "Dribble when the ball lies this near to the line"},
           self.alignedAside);
     visit({"kick", Unit::None, {0, 1}, fixed, "Whether to kick at all"}, self.kick);
-    visit({"kickAhead", Unit::Metre, {0, 1}, fixed, "Kick: ball this far ahead of the torso"},
-          self.kickAhead);
-    visit({"kickAheadTolerance", Unit::Metre, {0, 1}, fixed, "Kick: allowed error of kickAhead"},
-          self.kickAheadTolerance);
-    visit({"kickAside",
-           Unit::Metre,
-           {0, 0.3},
-           fixed,
-           "Kick: ball in front of the foot, this far from the middle"},
-          self.kickAside);
-    visit({"kickAsideTolerance", Unit::Metre, {0, 0.3}, fixed, "Kick: allowed error of kickAside"},
-          self.kickAsideTolerance);
-    visit({"kickAngle", Unit::Radian, {0, 3.2}, fixed, "Kick: allowed error of the heading"}, self.kickAngle);
     visit({"kickApproach",
            Unit::Radian,
            {0, 3.2},
            search(0.5, 3.1),
            "Kick: the last steps go straight to their place when the target lies within this angle"},
           self.kickApproach);
-    visit({"kickGain", Unit::Hertz, {0.1, 20}, search(1, 8), "Kick: speed per distance in the last steps"},
-          self.kickGain);
-    visit({"kickLeastSpeed",
-           Unit::MetrePerSecond,
-           {0, 1},
-           search(0, 0.3),
-           "Kick: speed of the last steps besides what kickGain gives"},
-          self.kickLeastSpeed);
     visit({"kickOpponentDistance",
            Unit::Metre,
            {0, 10},
@@ -222,12 +193,6 @@ struct BallHandlingParameters {
           self.handleDistance);
     visit({"waitBehind", Unit::Metre, {0.1, 2}, fixed, "Set piece: the taker waits this far behind the ball"},
           self.waitBehind);
-    visit({"kickStay",
-           Unit::None,
-           {1, 5},
-           fixed,
-           "Kick: tolerances grow by this factor while the robot comes to its stand"},
-          self.kickStay);
     visit({"kickPress",
            Unit::None,
            {0, 1},
@@ -246,14 +211,14 @@ struct BallHandlingParameters {
            fixed,
            "Kick: a faster ball is not where it was when the foot comes"},
           self.kickRolling);
-    visit({"kickMostSpeed", Unit::MetrePerSecond, {0, 3}, fixed, "Kick: fastest speed of the last steps"},
-          self.kickMostSpeed);
-    visit({"kickBehind",
-           Unit::None,
+    visit({"kickBehind", Unit::Metre, {0, 1}, fixed, "Kick: the last steps begin this far behind the ball"},
+          self.kickBehind);
+    visit({"kickBesides",
+           Unit::Metre,
            {0, 1},
            fixed,
-           "Kick: the last steps begin this share of kickAhead behind the ball"},
-          self.kickBehind);
+           "Kick: the last steps begin where the ball lies less far aside than ahead, and this much more"},
+          self.kickBesides);
     visit({"alignedBehind", Unit::Metre, {0, 1}, fixed, "Dribble when this far behind the ball"},
           self.alignedBehind);
     visit({"circleBehind",

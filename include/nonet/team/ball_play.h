@@ -43,6 +43,9 @@ struct BallPlay {
 Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& parameters,
                    Candidates* record = nullptr);
 
+/// How much the opponents near the ball bar this direction of it (rad, own field frame), 0 .. 1.
+double barred(const world::WorldState& world, const BallTargetParameters& parameters, double direction);
+
 /// How much of the way is free of opponents: the distance of the nearest one from it, at most `widest`, m.
 double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest);
 

@@ -3,6 +3,7 @@
 
 #include "nonet/config/parameters.h"
 #include "nonet/team/ball_parameters.h"
+#include "nonet/team/choice_parameters.h"
 #include "nonet/team/place_parameters.h"
 
 namespace nonet::team {
@@ -259,6 +260,7 @@ struct TeamParameters {
   FormationParameters formation;
   BallTargetParameters target;
   BallHandlingParameters ball;
+  ChoiceParameters choice;
   GoalieParameters goalie;
   PaceParameters pace;
   NavigationParameters navigation;
@@ -280,6 +282,7 @@ struct TeamParameters {
     visit.group("formation", self.formation);
     visit.group("target", self.target);
     visit.group("ball", self.ball);
+    visit.group("choice", self.choice);
     visit.group("goalie", self.goalie);
     visit.group("pace", self.pace);
     visit.group("navigation", self.navigation);

@@ -60,8 +60,9 @@ Situation assess(const world::WorldState& world, const TeamParameters& parameter
 /// The ball is to be played from where it lies towards p_FTarget.
 BallPlay playTowards(const Situation& situation, const Vector2& p_FTarget, KickUse use, bool wait = false);
 
-/// The ball to play when it is one's turn; needs everything above `play`.
-std::optional<BallPlay> ownTurn(const Situation& situation);
+/// The ball to play when it is one's turn; needs everything above `play`. What was weighed is written to
+/// `record` unless that is null.
+std::optional<BallPlay> ownTurn(const Situation& situation, Candidates* record = nullptr);
 
 /// Whether the goalie goes to the ball; `claims`: it does so already.
 bool goalieWantsBall(const Situation& situation, bool claims);

@@ -9,6 +9,7 @@ namespace {
 using protocol::PlayMode;
 
 constexpr double kSampleTime = 0.1;   // s
+constexpr double kOneFoul = 1.0;      // s between records of one foul, at most
 constexpr double kLongestStep = 0.5;  // s without a frame: nothing is known of the time between
 constexpr double kFallenBelow = 0.5;  // of up; between the two a robot keeps the stance it had
 constexpr double kStandingAbove = 0.9;
@@ -41,9 +42,18 @@ PlayerStatistics& MatchStatistics::player(TeamIndex team, int unum) {
   return player;
 }
 
+// A robot that is carried away has a new record in every cycle (server facts 4.10), a self-collision one for
+// each pair of limbs: all that come within a second are one foul.
+void MatchStatistics::countFoul(const FrameFoul& foul, double time) {
+  const auto [last, first] = fouledAt_.try_emplace({foul.team, foul.unum, foul.type}, time);
+  const bool goesOn = !first && time >= last->second && time < last->second + kOneFoul;
+  last->second = time;
+  if (!goesOn) ++teamAt(foul.team).fouls[std::string(foulName(foul.type))];
+}
+
 void MatchStatistics::add(const Frame& frame) {
   endTime_ = std::max(endTime_, frame.time);
-  for (const FrameFoul& foul : frame.fouls) ++teamAt(foul.team).fouls[std::string(foulName(foul.type))];
+  for (const FrameFoul& foul : frame.fouls) countFoul(foul, frame.time);
   if (!any_) {
     score_ = frame.score;
     modeSince_ = frame.time;

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "nonet/lab/common/statistics.h"
+#include "nonet/math/angle.h"
+#include "nonet/math/random.h"
+#include "nonet/motion/kick_catalogue.h"
 
 #include "lab/common/parallel.h"
 
@@ -15,72 +19,160 @@ namespace nonet::lab {
 
 namespace {
 
-using model::Side;
+constexpr double kShort = 2.0;  // m
 
-KickStatistics statisticsOf(const std::vector<Kick>& kicks) {
+KickFigure figureOf(const std::vector<double>& sample) {
+  if (sample.empty()) return {};
+  return {mean(sample), quantile(sample, 0.5), quantile(sample, 0.1)};
+}
+
+KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks) {
   KickStatistics s;
-  s.kicks = static_cast<int>(kicks.size());
-  const auto count = static_cast<double>(s.kicks);
+  s.name = name;
+  s.trials = static_cast<int>(kicks.size());
+  const auto share = 1.0 / static_cast<double>(s.trials);
   std::vector<double> distances;
-  int hits = 0;
-  int straight = 0;
+  std::vector<double> heights;
+  std::vector<double> directions;
+  std::vector<double> times;
   for (const Kick& kick : kicks) {
-    s.falls += kick.fell ? 1 : 0;
-    s.misses += kick.missed() ? 1 : 0;
+    s.falls += kick.fell ? share : 0.0;
+    s.misses += kick.missed() ? share : 0.0;
+    s.under2m += kick.forward < kShort ? share : 0.0;
     distances.push_back(kick.forward);
-    s.duration += kick.duration / count;
+    heights.push_back(kick.height);
     if (kick.missed()) continue;
-    ++hits;
-    s.directionError += std::abs(kick.direction());
-    straight += std::abs(kick.direction()) < toRadians(10.0) ? 1 : 0;
+    directions.push_back(std::abs(kick.direction()));
+    times.push_back(kick.time);
+    s.withinTen += std::abs(kick.direction()) < toRadians(10.0) ? share : 0.0;
   }
-  if (hits > 0) s.directionError /= hits;
-  s.withinTen = straight / count;
-  const Estimate distance = estimate(distances);
-  s.distance = distance.mean;
-  s.ci95 = distance.ci95;
+  s.distance = figureOf(distances);
+  s.height = figureOf(heights);
+  s.directionError = figureOf(directions);
+  s.time = figureOf(times);
+  s.kicks = std::move(kicks);
   return s;
+}
+
+nlohmann::ordered_json jsonOf(const KickFigure& figure, double unit = 1.0) {
+  return {{"mean", unit * figure.mean}, {"median", unit * figure.median}, {"p10", unit * figure.p10}};
+}
+
+// Metres to picture coordinates: forward to the right, left up.
+constexpr double kScale = 50.0;
+constexpr double kLeftEdge = 60.0;
+constexpr double kFarthest = 16.0;  // m shown
+constexpr double kMiddle = 190.0;   // of the view from above
+constexpr double kGround = 460.0;   // of the side view
+
+std::string pathOf(const std::vector<Vector3>& path, bool fromAbove, const char* color) {
+  std::string points;
+  for (const Vector3& p : path) {
+    const double y = fromAbove ? kMiddle - kScale * p.y() : kGround - kScale * p.z();
+    points += fmt::format("{:.0f},{:.0f} ", kLeftEdge + kScale * p.x(), y);
+  }
+  return fmt::format("<polyline fill='none' stroke='{}' stroke-opacity='0.5' points='{}'/>\n", color, points);
 }
 
 }  // namespace
 
-KickReport measureKicks(const KickReportSettings& settings) {
-  const Random seeds(settings.seed);
-  std::array<std::vector<Kick>, 2> kicks;
-  for (std::vector<Kick>& side : kicks) side.resize(static_cast<std::size_t>(settings.kicks));
-  inParallel(2 * settings.kicks, settings.threads, [&](int i) {
-    const auto side = static_cast<std::size_t>(i % 2);
-    kicks[side][static_cast<std::size_t>(i / 2)] =
-        kickOnce(settings.setup, static_cast<Side>(side), settings.from,
-                 seeds.fork(static_cast<std::uint64_t>(i)).next());
-  });
-  return {statisticsOf(kicks[0]), statisticsOf(kicks[1])};
+std::vector<std::string> kickNames(const agent::AgentConfig& agent) {
+  const motion::SkillLibrary library(agent.skillFolder, agent.parameters.motion.skills);
+  const motion::KickCatalogue catalogue(library, agent.robotType);
+  std::vector<std::string> names;
+  for (const motion::KickOption& option : catalogue.options()) {
+    if (option.foot == model::Side::Left) names.emplace_back(option.name);
+  }
+  return names;
 }
 
-std::string kickReportTable(const KickReport& report) {
-  std::string out = "foot   kicks  falls  misses  distance m           off deg  within 10 deg  time s\n";
-  for (const Side side : {Side::Left, Side::Right}) {
-    const KickStatistics& s = report[static_cast<std::size_t>(side)];
-    out += fmt::format("{:<5} {:6} {:6} {:7} {:11.2f} +- {:4.2f} {:9.1f} {:13.0f}% {:7.2f}\n",
-                       side == Side::Left ? "left" : "right", s.kicks, s.falls, s.misses, s.distance, s.ci95,
-                       toDegrees(s.directionError), 100.0 * s.withinTen, s.duration);
+std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
+  const std::vector<std::string> known = kickNames(settings.agent);
+  std::vector<std::string> names = {settings.kick};
+  if (settings.kick == "all") {
+    names = known;
+  } else if (settings.kick != "any" && std::find(known.begin(), known.end(), settings.kick) == known.end()) {
+    throw std::runtime_error(fmt::format("type {} has no kick '{}': use any, all or one of {}",
+                                         settings.agent.robotType, settings.kick, fmt::join(known, ", ")));
+  }
+  std::vector<KickStatistics> report;
+  const Random seeds(settings.seed);
+  for (const std::string& name : names) {
+    std::vector<Kick> kicks(static_cast<std::size_t>(settings.trials));
+    inParallel(settings.trials, settings.threads, [&](int i) {
+      KickScene scene;
+      scene.kick = name == "any" ? "" : name;
+      scene.start = settings.start;
+      scene.rolling = settings.rolling;
+      scene.distance = settings.distance;
+      scene.bearing = kickBearing(i);
+      kicks[static_cast<std::size_t>(i)] =
+          kickOnce(settings.agent, sim::Settings{}, scene, seeds.fork(static_cast<std::uint64_t>(i)).next());
+    });
+    report.push_back(statisticsOf(name, std::move(kicks)));
+  }
+  return report;
+}
+
+std::string kickReportTable(const std::vector<KickStatistics>& report) {
+  std::string out = fmt::format("{:<20} {:>7} {:>6} {:>6} {:>9} | {:>6} {:>7} {:>6} | {:>8} {:>6} {:>7}\n",
+                                "kick", "trials", "falls", "misses", "under 2 m", "mean m", "median", "p10",
+                                "off deg", "time s", "high m");
+  for (const KickStatistics& s : report) {
+    out += fmt::format(
+        "{:<20} {:>7} {:>5.1f}% {:>5.1f}% {:>8.1f}% | {:>6.2f} {:>7.2f} {:>6.2f} | {:>8.1f} {:>6.2f} "
+        "{:>7.2f}\n",
+        s.name, s.trials, 100.0 * s.falls, 100.0 * s.misses, 100.0 * s.under2m, s.distance.mean,
+        s.distance.median, s.distance.p10, toDegrees(s.directionError.mean), s.time.mean, s.height.mean);
   }
   return out;
 }
 
-std::string kickReportJson(const KickReport& report) {
+std::string kickReportJson(const std::vector<KickStatistics>& report, const KickReportSettings& settings) {
   nlohmann::ordered_json json;
-  for (const Side side : {Side::Left, Side::Right}) {
-    const KickStatistics& s = report[static_cast<std::size_t>(side)];
-    json[side == Side::Left ? "left" : "right"] = {{"kicks", s.kicks},
-                                                   {"falls", s.falls},
-                                                   {"misses", s.misses},
-                                                   {"distance_m", {{"mean", s.distance}, {"ci95", s.ci95}}},
-                                                   {"direction_error_deg", toDegrees(s.directionError)},
-                                                   {"within_10_deg", s.withinTen},
-                                                   {"duration_s", s.duration}};
+  for (const KickStatistics& s : report) {
+    json[s.name] = {{"type", settings.agent.robotType},
+                    {"trials", s.trials},
+                    {"distance_m", jsonOf(s.distance)},
+                    {"height_1m_m", jsonOf(s.height)},
+                    {"direction_error_deg", jsonOf(s.directionError, toDegrees(1.0))},
+                    {"time_s", jsonOf(s.time)},
+                    {"under_2m", s.under2m},
+                    {"within_10_deg", s.withinTen},
+                    {"misses", s.misses},
+                    {"falls", s.falls}};
   }
   return json.dump(2) + "\n";
+}
+
+std::string kickReportSvg(const KickStatistics& kick) {
+  std::string out = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {:.0f} 500' font-family='sans-serif' "
+      "font-size='13'>\n"
+      "<rect width='100%' height='100%' fill='white'/>\n<text x='20' y='24' font-size='16'>{}: {} kicks, "
+      "{:.1f} m in the mean; above: from above, below: from the side (m)</text>\n",
+      kLeftEdge + kScale * kFarthest + 20.0, kick.name, kick.trials, kick.distance.mean);
+  for (int x = 0; x <= kFarthest; ++x) {
+    const double at = kLeftEdge + kScale * x;
+    out += fmt::format("<line x1='{0:.0f}' y1='40' x2='{0:.0f}' y2='{1:.0f}' stroke='#ddd'/>", at, kGround);
+    out += fmt::format("<text x='{:.0f}' y='480' text-anchor='middle'>{}</text>\n", at, x);
+  }
+  for (const double side : {-1.0, 0.0, 1.0}) {  // the target's direction, and ten degrees beside it
+    const double end = kFarthest * std::tan(side * toRadians(10.0));
+    out += fmt::format(
+        "<line x1='{:.0f}' y1='{:.0f}' x2='{:.0f}' y2='{:.0f}' stroke='#999' "
+        "stroke-dasharray='4 4'/>\n",
+        kLeftEdge, kMiddle, kLeftEdge + kScale * kFarthest, kMiddle - kScale * end);
+  }
+  out += fmt::format("<line x1='{0:.0f}' y1='{1:.0f}' x2='{2:.0f}' y2='{1:.0f}' stroke='#555'/>\n", kLeftEdge,
+                     kGround, kLeftEdge + kScale * kFarthest);
+  for (const Kick& one : kick.kicks) {
+    const char* color = one.fell ? "#c33" : one.forward < kShort ? "#e90" : "#27a";
+    out += pathOf(one.path, true, color) + pathOf(one.path, false, color);
+  }
+  return out +
+         "<text x='20' y='496'>blue: a kick; orange: under 2 m; red: the robot fell; dashed: 10 degrees "
+         "off</text>\n</svg>\n";
 }
 
 }  // namespace nonet::lab

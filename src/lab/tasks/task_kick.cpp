@@ -1,9 +1,17 @@
-// kick: from the stand, with either foot, the ball some centimetres off its place. As in [MacAlpine 2012a,
-// section 5.2]: the mean distance towards the target, -1 for a fall or a miss; what goes aside and the time
-// it takes count against it.
+// kick_NAME: one kick of the catalogue with the whole approach, as in [MacAlpine 2012a, section 5.2]: from
+// ten directions on a half circle, the ball where it is seen, sometimes rolling. The fitness is the distance
+// towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a miss or a ball that
+// leaves by more than ten degrees.
 #include <cmath>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "nonet/lab/trial/kick_trial.h"
+#include "nonet/math/angle.h"
+#include "nonet/math/random.h"
 
 #include "lab/tasks/tasks.h"
 
@@ -11,50 +19,70 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kKicks = 2;           // one with each foot
-constexpr double kPenalty = -1.0;   // m
-constexpr double kPerSecond = 0.5;  // m/s
+constexpr int kKicks = 4;            // a trial: four bearings
+constexpr double kPenalty = -1.0;    // m
+constexpr double kPerSecond = 1.2;   // m/s
+constexpr double kStraight = 0.175;  // rad
+constexpr double kRolling = 0.3;     // m/s
 
 class KickTask final : public Task {
  public:
-  std::string_view name() const override { return "kick"; }
+  explicit KickTask(std::string name) : name_(std::move(name)) {}
+
+  std::string_view name() const override { return name_; }
   std::string_view description() const override {
-    return "kick forward from the stand: far, straight, soon and without a fall";
+    return "a kick with its approach: far, straight, soon and without a fall";
   }
-  std::vector<std::string> searchedKeys() const override { return {"motion.skills.kick_forward."}; }
+  std::vector<std::string> searchedKeys() const override { return {"motion.skills." + name_ + "."}; }
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const TrialSetup setup = trialSetup(parameters, seed, settings);
+    agent::AgentConfig agent;
+    agent.robotType = settings.robotType;
+    agent.parameters = parameters;
+    agent.skillFolder = settings.dataFolder + "/skills";
+    sim::Settings server;
+    server.quickSolver = settings.quickSolver;
     Random random = Random(seed).fork(6);
-    double fitness = 0.0;
-    double distance = 0.0;
-    double aside = 0.0;
-    double duration = 0.0;
-    int failures = 0;
-    for (const model::Side side : {model::Side::Left, model::Side::Right}) {
-      const Kick kick = kickOnce(setup, side, KickFrom::Stand, random.next());
-      const bool failed = kick.fell || kick.missed();
-      failures += failed ? 1 : 0;
+    const int first = random.uniform() < 0.5 ? 0 : 5;
+    TaskResult result;
+    double distance = 0.0, aside = 0.0, time = 0.0, falls = 0.0, failures = 0.0;
+    for (int i = 0; i < kKicks; ++i) {
+      KickScene scene;
+      scene.kick = name_;
+      scene.bearing = kickBearing(first + 3 * i);
+      scene.rolling = i % 2 == 0 ? 0.0 : kRolling;
+      const Kick kick = kickOnce(agent, server, scene, random.next());
+      const bool failed = kick.fell || kick.missed() || std::abs(kick.direction()) > kStraight;
+      const double gained = kick.forward - std::abs(kick.aside) - kPerSecond * kick.time;
+      result.fitness += (failed ? kPenalty : gained) / kKicks;
       distance += kick.forward / kKicks;
       aside += std::abs(kick.aside) / kKicks;
-      duration += kick.duration / kKicks;
-      const double gained = kick.forward - std::abs(kick.aside) - kPerSecond * kick.duration;
-      fitness += (failed ? kPenalty : gained) / kKicks;
+      time += kick.time / kKicks;
+      falls += kick.fell ? 1.0 : 0.0;
+      failures += failed ? 1.0 / kKicks : 0.0;
     }
-    return {.fitness = fitness,
-            .measures = {{"distance_m", distance},
-                         {"aside_m", aside},
-                         {"duration_s", duration},
-                         {"failures", static_cast<double>(failures) / kKicks}}};
+    result.measures = {{"distance_m", distance},
+                       {"aside_m", aside},
+                       {"time_s", time},
+                       {"falls", falls},
+                       {"failures", failures}};
+    return result;
   }
+
+ private:
+  std::string name_;
 };
 
 }  // namespace
 
-const Task& kickTask() {
-  static const KickTask task;
-  return task;
+const Task& kickTask(std::string_view name) {
+  static std::mutex mutex;
+  static std::map<std::string, KickTask, std::less<>> tasks;
+  const std::lock_guard lock(mutex);
+  const auto found = tasks.find(name);
+  if (found != tasks.end()) return found->second;
+  return tasks.try_emplace(std::string(name), std::string(name)).first->second;
 }
 
 }  // namespace nonet::lab

@@ -11,14 +11,15 @@ namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
   static const std::array tasks{
-      &goToTargetTask(), &surefootedTask(), &standardCourseTask(), &sidestepTask(),
-      &duelTask(),       &sprintTask(),     &getupTask(),          &getupFrontTask(),
-      &getupBackTask(),  &kickTask(),       &diveTask(),           &quadraticTask(),
+      &goToTargetTask(), &surefootedTask(),       &standardCourseTask(), &sidestepTask(),
+      &duelTask(),       &sprintTask(),           &getupTask(),          &getupFrontTask(),
+      &getupBackTask(),  &kickTask("kick_power"), &diveTask(),           &quadraticTask(),
   };
   return tasks;
 }
 
 const Task& findTask(std::string_view name) {
+  if (name.starts_with("kick_")) return kickTask(name);
   std::string known;
   for (const Task* task : registeredTasks()) {
     if (task->name() == name) return *task;

@@ -20,7 +20,8 @@ const Task& sprintTask();
 const Task& getupTask();
 const Task& getupFrontTask();
 const Task& getupBackTask();
-const Task& kickTask();
+/// The task for the kick with this name (any skill with the head of a kick; they all begin with "kick_").
+const Task& kickTask(std::string_view name);
 const Task& diveTask();
 const Task& quadraticTask();
 

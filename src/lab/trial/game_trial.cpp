@@ -143,12 +143,25 @@ struct GameTrial::Implementation {
     ++cycles;
   }
 
+  void putBall(const GameSituation& situation, const Vector2& velocity) {
+    const double radius = simulation.settings().ballRadius;
+    simulation.trainer(fmt::format("(ball (pos {} {} {})(vel {} {} 0))", situation.ball.x(),
+                                   situation.ball.y(), radius, velocity.x(), velocity.y()));
+  }
+
+  // The ball lies where it will be: before the kick-off the referee puts it back to the centre spot.
+  void prepare(const GameSituation& situation) {
+    const long preparation = std::lround(kPreparation / kCycleTime);
+    for (long i = 0; i < preparation; ++i) {
+      putBall(situation, Vector2::Zero());
+      step();
+    }
+  }
+
   // From here on it counts.
   void begin(const GameSituation& situation) {
-    const double radius = simulation.settings().ballRadius;
-    simulation.trainer(fmt::format("(ball (pos {} {} {})(vel {} {} 0))(playMode {})", situation.ball.x(),
-                                   situation.ball.y(), radius, situation.ballVelocity.x(),
-                                   situation.ballVelocity.y(), protocol::playModeName(situation.playMode)));
+    putBall(situation, situation.ballVelocity);
+    simulation.trainer(fmt::format("(playMode {})", protocol::playModeName(situation.playMode)));
     cycles = 0;
     foulsBefore = simulation.fouls().size();
   }
@@ -161,7 +174,7 @@ struct GameTrial::Implementation {
 
 GameTrial::GameTrial(const sim::Settings& settings, const GameSituation& situation, std::uint64_t seed)
     : implementation_(std::make_unique<Implementation>(settings, situation, seed)) {
-  run(kPreparation);
+  implementation_->prepare(situation);
   implementation_->begin(situation);
 }
 GameTrial::~GameTrial() = default;

@@ -2,96 +2,136 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <variant>
 
+#include "nonet/lab/trial/game_trial.h"
+#include "nonet/math/random.h"
+#include "nonet/team/behaviors.h"
 #include "nonet/world/ball_law.h"
 
 namespace nonet::lab {
 
 namespace {
 
-using model::Side;
-using motion::MotionRequest;
+constexpr double kMiss = 0.3;      // m
+constexpr double kHit = 0.7;       // m/s that a kick adds at least to the ball's speed in a cycle
+constexpr double kLasts = 2.0;     // s after contact that the robot must stand
+constexpr double kRollsOut = 8.0;  // s, for a ball that flies and bounces
+constexpr int kBearings = 10;
 
-// Where the ball lies, seen from the standing robot, and how far off it may be.
-constexpr double kAhead = 0.18;  // m
-constexpr double kAside = 0.055;
-constexpr double kAheadSpread = 0.03;
-constexpr double kAsideSpread = 0.02;
-constexpr double kBelief = 0.005;  // m, standard deviation of what the robot is told
+// Plays the ball to the target with the team's own behaviours but for dribbling.
+class Kicker {
+ public:
+  Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick)
+      : parameters_(parameters), p_FTarget_(p_FTarget) {
+    kick_.assign(kick);
+  }
 
-constexpr double kLongestKick = 3.0;  // s
-constexpr double kRollsOut = 8.0;     // s, for the ball
-constexpr double kLasts = 1.0;        // s that the robot must stand after the skill
-constexpr double kMiss = 0.3;         // m
+  team::Action operator()(const world::WorldState& world, const motion::MotionState& motion) {
+    busy = motion.busy;
+    if (!world.ball.known || !world.self.localized || motion.busy || motion.rising) return {};
+    team::Situation situation = team::assess(world, parameters_, motion);
+    situation.play = team::playTowards(situation, p_FTarget_, team::KickUse::Clear);
+    for (const auto& behavior : {team::goToBall, team::kick, team::goBehindBall}) {
+      std::optional<team::Action> action = behavior(situation);
+      if (!action) continue;
+      if (auto* request = std::get_if<motion::KickTo>(&action->motion)) request->kick = kick_;
+      return *action;
+    }
+    return {};
+  }
 
-world::BallMotion ballOf(RobotTrial& trial) {
-  return {trial.physics().ballPosition().cast<double>(), trial.physics().ballVelocity().cast<double>()};
+  bool busy = false;  // a skill runs
+
+ private:
+  team::TeamParameters parameters_;
+  Vector2 p_FTarget_;
+  InlineString<32> kick_;
+};
+
+GameSituation situationOf(const agent::AgentConfig& agent, const KickScene& scene, Random& random,
+                          const Vector2& ball, double heading) {
+  GameSituation situation;
+  const double from = heading + scene.bearing;
+  const Vector2 place = ball - scene.start * Vector2(std::cos(from), std::sin(from));
+  situation.players = {{agent, false, Pose2(place, from), {}}};
+  situation.ball = ball;
+  const double way = random.uniform(-kPi, kPi);
+  situation.ballVelocity = scene.rolling * random.uniform(0.0, 1.0) * Vector2(std::cos(way), std::sin(way));
+  return situation;
 }
 
-void putBall(RobotTrial& trial, const Vector2& place) {
-  const double radius = trial.physics().settings().ballRadius;
-  trial.physics().setBallPosition(Vector3(place.x(), place.y(), radius).cast<float>());
-  trial.physics().setBallVelocity(sim::Vector3f::Zero());
+world::BallMotion motionOf(const GameTrial& trial) {
+  return {trial.ball(), trial.ballVelocity()};
 }
 
-// The last steps to a ball: slow, in any direction.
-void walkAbout(RobotTrial& trial, Random& random) {
-  const Pose2 velocity(random.uniform(-0.1, 0.2), random.uniform(-0.15, 0.15), random.uniform(-0.5, 0.5));
-  const motion::WalkVelocity walk{velocity};
-  trial.run(walk, random.uniform(1.0, 2.0));
+// From the contact on: what the ball does, and whether the robot stays on its feet.
+void follow(GameTrial& trial, const Vector2& from, const Pose2& X_WAim, Kick& kick) {
+  const double contact = trial.time();
+  bool passed = false;
+  const double least = contact + kLasts;
+  while (trial.time() < contact + kRollsOut) {
+    trial.step();
+    const Vector3 ball = trial.ball();
+    kick.ballSpeed = std::max(kick.ballSpeed, trial.ballVelocity().norm());
+    if (!passed && (ball.head<2>() - from).norm() > 1.0) {
+      passed = true;
+      kick.height = ball.z();
+    }
+    const Vector2 aimed = X_WAim.inverse() * Vector2(ball.head<2>());
+    kick.path.emplace_back(aimed.x(), aimed.y(), ball.z());
+    if (trial.time() < least) kick.fell = kick.fell || trial.down(0);
+    if (trial.time() > least && !world::isFlying(motionOf(trial))) break;
+  }
+  // The rest of a roll is certain.
+  const Vector2 way = X_WAim.inverse() * world::restPlace(motionOf(trial));
+  kick.forward = way.x();
+  kick.aside = way.y();
 }
 
 }  // namespace
 
 bool Kick::missed() const {
-  return forward < kMiss;
+  return !contact || forward < kMiss;
 }
 double Kick::direction() const {
   return std::atan2(aside, forward);
 }
 
-Kick kickOnce(const TrialSetup& setup, Side side, KickFrom from, std::uint64_t seed) {
-  TrialSetup own = setup;
-  own.seed = seed;
-  RobotTrial trial(own);
+double kickBearing(int trial) {
+  return kPi * ((trial % kBearings + 0.5) / kBearings - 0.5);
+}
+
+Kick kickOnce(const agent::AgentConfig& agent, const sim::Settings& settings, const KickScene& scene,
+              std::uint64_t seed) {
   Random random(seed);
-  trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
-  const double sign = side == Side::Left ? 1.0 : -1.0;
-  const Vector2 ball(kAhead + random.uniform(-kAheadSpread, kAheadSpread),
-                     sign * (kAside + random.uniform(-kAsideSpread, kAsideSpread)));
-  if (from == KickFrom::Walk) walkAbout(trial, random);
-  motion::KickTo request;
-  request.foot = side;
-  request.ball = ball + Vector2(random.normal(0.0, kBelief), random.normal(0.0, kBelief));
-  request.target = Vector2(10.0, 0.0);
-  Kick kick;
-  const double begin = trial.time();
-  const auto watch = [&] {
-    kick.ballSpeed = std::max(kick.ballSpeed, static_cast<double>(trial.physics().ballVelocity().norm()));
-    kick.fell = kick.fell || trial.down();
+  // Where lines and goals are as far as anywhere on average.
+  const Vector2 start(random.uniform(-8.0, 4.0), random.uniform(-5.0, 5.0));
+  const double heading = random.uniform(-0.7, 0.7);
+  const auto target = Vector2(start + scene.distance * Vector2(std::cos(heading), std::sin(heading)));
+  GameSituation situation = situationOf(agent, scene, random, start, heading);
+  auto kicker = std::make_shared<Kicker>(agent.parameters.team, target, scene.kick);
+  situation.players[0].mind = [kicker](const world::WorldState& world, const motion::MotionState& motion) {
+    return (*kicker)(world, motion);
   };
-  Pose2 start;
-  bool begun = false;
-  while (trial.time() - begin < kLongestKick && !trial.motion().state().skillFinished) {
-    if (!begun) {
-      start = trial.pose();
-      putBall(trial, start * ball);  // until the kick begins it lies where it should, wherever the feet go
-    }
-    trial.step(request);
-    begun = begun || trial.motion().state().busy;
-    watch();
+  GameTrial trial(settings, situation, random.next());
+  Kick kick;
+  double speed = situation.ballVelocity.norm();
+  Vector2 from = start;
+  while (trial.time() < scene.longest && !kick.contact) {
+    from = trial.ball().head<2>();
+    trial.step();
+    const double now = trial.ballVelocity().norm();
+    kick.contact = kicker->busy && now > speed + kHit;
+    speed = now;
+    kick.fell = kick.fell || trial.down(0);
   }
-  kick.duration = trial.time() - begin;
-  while (trial.time() - begin < kick.duration + kRollsOut) {
-    trial.step(MotionRequest{});
-    watch();
-    const bool settled = trial.time() - begin > kick.duration + kLasts;
-    if (settled && (kick.fell || !world::isFlying(ballOf(trial)))) break;
-  }
-  // The rest of a roll is certain.
-  const Vector2 way = start.inverse() * world::restPlace(ballOf(trial)) - ball;
-  kick.forward = way.x();
-  kick.aside = way.y();
+  kick.time = trial.time();
+  if (!kick.contact) return kick;
+  const Vector2 way = target - from;
+  follow(trial, from, Pose2(from, std::atan2(way.y(), way.x())), kick);
   return kick;
 }
 

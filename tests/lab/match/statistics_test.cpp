@@ -266,9 +266,19 @@ TEST_P(Statistics, ADuelIsWonByWhoStaysAtTheBall) {
 
 TEST_P(Statistics, FoulsByKind) {
   s.frame.fouls = {{6, 1, 4}, {6, 1, 5}, {1, 0, 3}};
-  s.run(1.0);
+  s.run(0.6);
   EXPECT_EQ(s.statistics.team(1).fouls.at("charging"), 2);
   EXPECT_EQ(s.statistics.team(0).fouls.at("touching"), 1);
+  // Carried away for half a second: a record in every cycle is the same foul; one after two seconds is not.
+  for (int i = 1; i <= 25; ++i) {
+    s.frame.time += 0.02;
+    s.frame.fouls = {{6, 1, 4}};
+    s.statistics.add(s.frame);
+  }
+  EXPECT_EQ(s.statistics.team(1).fouls.at("charging"), 2);
+  s.frame.time += 2.0;
+  s.statistics.add(s.frame);
+  EXPECT_EQ(s.statistics.team(1).fouls.at("charging"), 3);
 }
 
 // Nobody is near: rolling, bouncing off a post and being placed are nobody's touches.

@@ -23,6 +23,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -140,6 +141,7 @@ class MatchStatistics {
 
   void newMode(const Frame& frame);
   void newGoals(const Frame& frame);
+  void countFoul(const FrameFoul& foul, double time);
   void sample(const Frame& frame, double step);
   void sampleRobots(const Frame& frame, double step, bool inPlay);
   void samplePace(const FrameRobot& robot, Track& track, PlayerStatistics& player, double time);
@@ -155,6 +157,7 @@ class MatchStatistics {
   nlohmann::ordered_json teamJson(TeamIndex index) const;
 
   StatisticsField field_;
+  std::map<std::tuple<TeamIndex, int, int>, double> fouledAt_;  // team, number, kind: newest record, s
   std::array<TeamStatistics, 2> teams_;
   std::vector<GoalStatistics> goals_;
   int duels_ = 0;

@@ -1,39 +1,55 @@
-// How far and how straight the robot kicks: seeded kicks from the stand or out of the last steps to the ball,
-// the ball some centimetres beside its nominal place, on the exact in-process physics with the real motion
-// code.
+// How far, how straight and how soon the robot kicks, kick by kick: seeded kicks with the whole approach from
+// ten sides (lab/trial/kick_trial.h), as a table, as JSON and as a picture of the balls' ways.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "nonet/lab/trial/kick_trial.h"
 
 namespace nonet::lab {
 
 struct KickReportSettings {
-  TrialSetup setup;
-  int kicks = 50;  // with each foot
-  KickFrom from = KickFrom::Stand;
+  agent::AgentConfig agent;
+  std::string kick = "all";  // name, "all", or "any": what motion chooses by itself
+  int trials = 100;          // of each kick
+  double start = 0.5;        // m from the ball
+  double rolling = 0.0;      // m/s, the fastest that the ball rolls at the begin
+  double distance = 10.0;    // m, how far the ball is wanted to go
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it
 };
 
-struct KickStatistics {
-  int kicks = 0;
-  int falls = 0;
-  int misses = 0;
-  double distance = 0.0;        // m in the wanted direction, mean; misses count
-  double ci95 = 0.0;            // half width, m
-  double directionError = 0.0;  // rad, mean of the magnitudes, of the kicks that hit
-  double withinTen = 0.0;       // share of all kicks within 10 degrees
-  double duration = 0.0;        // s, mean
+/// A figure over many kicks.
+struct KickFigure {
+  double mean = 0.0;
+  double median = 0.0;
+  double p10 = 0.0;  // a tenth of the kicks is below
 };
 
-using KickReport = std::array<KickStatistics, 2>;  // by model::Side
+struct KickStatistics {
+  std::string name;
+  int trials = 0;
+  KickFigure distance;        // m towards the target; a miss counts with what it made
+  KickFigure height;          // m, of the ball's centre a metre from where it lay
+  KickFigure directionError;  // rad, of the kicks that hit
+  KickFigure time;            // s until contact, of the kicks that hit
+  double under2m = 0.0;       // share of all
+  double withinTen = 0.0;     // share of all that went within 10 degrees of the target
+  double falls = 0.0;         // share of all
+  double misses = 0.0;        // share of all
+  std::vector<Kick> kicks;
+};
 
-KickReport measureKicks(const KickReportSettings& settings);
-std::string kickReportTable(const KickReport& report);
-std::string kickReportJson(const KickReport& report);
+/// Names of the kicks that this robot can do. Throws motion::SkillError.
+std::vector<std::string> kickNames(const agent::AgentConfig& agent);
+
+/// One entry per kick. Throws std::runtime_error for a kick that this robot cannot do.
+std::vector<KickStatistics> measureKicks(const KickReportSettings& settings);
+std::string kickReportTable(const std::vector<KickStatistics>& report);
+std::string kickReportJson(const std::vector<KickStatistics>& report, const KickReportSettings& settings);
+/// The balls' ways from above and from the side.
+std::string kickReportSvg(const KickStatistics& kick);
 
 }  // namespace nonet::lab

@@ -1,28 +1,44 @@
-// One seeded kick from the stand or out of the last steps to the ball, the ball some centimetres beside its
-// nominal place, on the exact in-process physics with the real motion code.
+// One seeded kick with the whole approach: a robot that sees, with all noise, goes to a ball and kicks it as
+// in play, with the team's behaviours and the real motion code, on the complete simulation.
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
-#include "nonet/lab/trial/robot_trial.h"
+#include "nonet/agent/agent.h"
+#include "nonet/sim/settings/settings.h"
 
 namespace nonet::lab {
 
+struct KickScene {
+  std::string kick;        // name of its skill; empty: motion chooses
+  double start = 0.5;      // m from the ball, facing it
+  double bearing = 0.0;    // rad, from which side the robot comes: 0 = the ball goes straight on
+  double rolling = 0.0;    // m/s, the fastest that the ball rolls at the begin, in any direction
+  double distance = 10.0;  // m, how far it should go
+  double longest = 10.0;   // s until the contact
+};
+
 struct Kick {
-  double forward = 0.0;    // m that the ball went in the wanted direction, until it rolled out
-  double aside = 0.0;      // m to the left of it
-  double duration = 0.0;   // s from the request to the end of the skill
-  double ballSpeed = 0.0;  // m/s, the fastest
-  bool fell = false;
+  bool contact = false;       // the foot met the ball in a kick
+  double forward = 0.0;       // m that the ball went towards the target, until it rolled out
+  double aside = 0.0;         // m to the left of it
+  double height = 0.0;        // m, of the ball's centre a metre from where it lay
+  double time = 0.0;          // s until contact
+  double ballSpeed = 0.0;     // m/s, the fastest
+  bool fell = false;          // within two seconds after contact, or before
+  std::vector<Vector3> path;  // of the ball: x towards the target, y left, from where it lay, m
 
   bool missed() const;
   double direction() const;  // rad, positive to the left
 };
 
-enum class KickFrom : std::uint8_t { Stand, Walk };
+/// The same arguments always give the same kick.
+Kick kickOnce(const agent::AgentConfig& agent, const sim::Settings& settings, const KickScene& scene,
+              std::uint64_t seed);
 
-/// The same seed always gives the same kick. The motion stage is told the place of the ball with an error
-/// such as the world model's.
-Kick kickOnce(const TrialSetup& setup, model::Side side, KickFrom from, std::uint64_t seed);
+/// Ten bearings on a half circle, one after the other.
+double kickBearing(int trial);
 
 }  // namespace nonet::lab

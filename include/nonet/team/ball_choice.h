@@ -1,0 +1,32 @@
+// What to do with the ball: every kick direction and the dribble, valued by where the ball then is and who is
+// first there. Values are goals: what the ball is worth to us there, less what it is worth to the opponents
+// if they get it.
+//
+//   V = P(nobody steps in the way) * [ P(we are first) * worth(end) - P(they are first) * worth'(end) ]
+//
+// with worth falling exponentially with the distance from the goal, worth' the same for the other goal, and
+// everything weighed with the probability that the kick comes off before an opponent is at the ball. A shot
+// that crosses the line between the posts is worth a goal.
+#pragma once
+
+#include "nonet/team/situation.h"
+
+namespace nonet::team {
+
+struct BallChoice {
+  bool kick = false;                    // otherwise dribble
+  Vector2 p_FTarget = Vector2::Zero();  // where the ball is to go, own field frame, m
+  double value = 0.0;
+};
+
+/// The best thing to do for the one whose turn it is; candidates are written to `record` unless it is null.
+BallChoice chooseAction(const Situation& situation, Candidates* record = nullptr);
+
+/// Goals that a ball of ours at p_F is worth.
+double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& parameters);
+
+/// What a kick in this direction (rad, own field frame) that carries `length` metres is worth once it leaves
+/// the foot, as if it came off for certain.
+double kickValue(const Situation& situation, double direction, double length);
+
+}  // namespace nonet::team

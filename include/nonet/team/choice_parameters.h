@@ -1,0 +1,94 @@
+// Declared parameters of the choice between kicking and dribbling (ball_choice.h).
+#pragma once
+
+#include "nonet/config/parameters.h"
+
+namespace nonet::team {
+
+struct ChoiceParameters {
+  bool use = true;
+  double worthMost = 0.3;
+  double worthScale = 6.0;
+  double length = 0.9;
+  double shotLength = 0.85;
+  double spread = 0.06;
+  double blockWidth = 0.3;
+  double blockGrowth = 0.12;
+  double ownPace = 0.9;
+  double opponentPace = 0.6;
+  double arrivalSpread = 0.8;
+  double setup = 1.0;
+  double setupSpread = 0.4;
+  double dribbleAhead = 3.0;
+  double dribbleLoss = 0.6;
+  double out = 0.5;
+  double keep = 0.02;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"use", Unit::None, {0, 1}, fixed, "Whether kicks and dribbles are weighed by what they are worth"},
+          self.use);
+    visit({"worthMost", Unit::None, {0, 1}, search(0.2, 0.9), "Goals that the ball at the goal is worth"},
+          self.worthMost);
+    visit({"worthScale",
+           Unit::Metre,
+           {0.5, 50},
+           search(3, 15),
+           "Distance from the goal over which the worth of the ball falls to a third"},
+          self.worthScale);
+    visit({"length",
+           Unit::None,
+           {0.1, 1},
+           fixed,
+           "Length of a kick in play as a share of the longest that its head declares"},
+          self.length);
+    visit({"shotLength", Unit::None, {0.1, 1}, fixed, "The same for a shot, which must cross the line"},
+          self.shotLength);
+    visit({"spread", Unit::Radian, {0.001, 1}, fixed, "Standard deviation of the direction of a kick"},
+          self.spread);
+    visit(
+        {"blockWidth", Unit::Metre, {0, 2}, search(0.1, 0.8), "A robot this near to the ball's way stops it"},
+        self.blockWidth);
+    visit({"blockGrowth",
+           Unit::None,
+           {0, 2},
+           search(0, 0.5),
+           "How much wider that is for each metre of the ball's way: robots have time to step in"},
+          self.blockGrowth);
+    visit({"ownPace", Unit::MetrePerSecond, {0.05, 5}, fixed, "Of team mates on their way to a kicked ball"},
+          self.ownPace);
+    visit({"opponentPace", Unit::MetrePerSecond, {0.05, 5}, search(0.3, 1.2), "Of opponents likewise"},
+          self.opponentPace);
+    visit({"arrivalSpread",
+           Unit::Second,
+           {0.01, 10},
+           fixed,
+           "Lead in time that makes it nearly certain who comes first"},
+          self.arrivalSpread);
+    visit({"setup",
+           Unit::Second,
+           {0, 10},
+           search(0.3, 3),
+           "From the arrival at the ball to the contact of a kick"},
+          self.setup);
+    visit({"setupSpread", Unit::Second, {0.01, 10}, fixed, "Uncertainty of that"}, self.setupSpread);
+    visit({"dribbleAhead", Unit::Metre, {0, 10}, search(0.5, 4), "How far a dribble carries the ball"},
+          self.dribbleAhead);
+    visit({"dribbleLoss",
+           Unit::None,
+           {0, 1},
+           search(0, 1),
+           "Probability to lose the ball in a dribble that an opponent bars in full"},
+          self.dribbleLoss);
+    visit({"out",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "Share of the ball's worth that opponents gain by a throw-in or goal kick there"},
+          self.out);
+    visit({"keep", Unit::None, {0, 1}, fixed, "A kick that is on its way is worth so much more"}, self.keep);
+  }
+};
+
+}  // namespace nonet::team

@@ -1,0 +1,107 @@
+#include "nonet/motion/kick_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nonet/math/angle.h"
+
+namespace nonet::motion {
+
+using model::Side;
+
+namespace {
+
+constexpr double kNear = 0.01;  // m; from here on the least speed fades, so that it does not jump
+constexpr double kAim =
+    0.6;  // share of the tolerances to reach before coming to a stand, which moves the robot
+constexpr int kCommandsOnTheWay = 2;  // messages until a command acts (server facts 1.2, 1.5)
+
+// Out of the walk a kick begins where the step has ended that stands on the kicking foot: the other one
+// becomes the stance. Only out of slow steps: fast ones leave too much to balance.
+bool stepEnds(const GaitState& gait, Side foot, const KickParameters& p) {
+  if (gait.standing || gait.stance != foot || gait.phase < 1.0 - 1e-6) return false;
+  return gait.step.translation.norm() < p.strideSpeed * gait.stepDuration &&
+         std::abs(gait.step.rotation) < p.strideTurn * gait.stepDuration;
+}
+
+}  // namespace
+
+KickControl::Way KickControl::wayTo(const KickOption& option, const KickTo& request) const {
+  const Vector2 way = request.target - request.ball;
+  Way result;
+  result.turn = wrapAngle(std::atan2(way.y(), way.x()) - option.head.direction);
+  result.place = request.ball - Pose2(Vector2::Zero(), result.turn).rotate(option.head.p_RBall);
+  result.missing = request.ball - option.head.p_RBall;
+  return result;
+}
+
+double KickControl::cost(const KickOption& option, const KickTo& request) const {
+  const KickParameters& p = parameters_;
+  const Way way = wayTo(option, request);
+  const double wanted = (request.target - request.ball).norm();
+  const double off = std::abs(wanted - std::clamp(wanted, option.head.shortest, option.head.longest));
+  // The place lies beyond the ball as seen from here.
+  const bool around = way.place.dot(request.ball) > request.ball.squaredNorm();
+  return way.place.norm() + p.turnCost * std::abs(way.turn) + (around ? p.aroundCost : 0.0) +
+         p.timeCost * option.head.contact + p.shortCost * off + (option.head.fromWalk ? 0.0 : p.standCost);
+}
+
+const KickOption* KickControl::choose(const KickTo& request) const {
+  const KickOption* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const KickOption& option : catalogue_->options()) {
+    if (option.head.room > request.room) continue;
+    if (!request.kick.view().empty() && request.kick.view() != option.name) continue;
+    const double value = cost(option, request) - (&option == chosen_ ? parameters_.keep : 0.0);
+    if (value >= least) continue;
+    least = value;
+    best = &option;
+  }
+  return best;
+}
+
+// Small steps may lead nowhere: the least speed keeps a robot from stopping short of its place for ever.
+WalkVelocity KickControl::lastSteps(const Way& way) const {
+  const KickParameters& p = parameters_;
+  const Vector2 speed = (p.gain + p.leastSpeed / std::max(way.place.norm(), kNear)) * way.place;
+  WalkVelocity walk;
+  walk.velocity.translation = speed * std::min(1.0, p.mostSpeed / std::max(speed.norm(), 1e-9));
+  walk.velocity.rotation = p.gain * way.turn;
+  return walk;
+}
+
+KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, double quiet) {
+  const KickParameters& p = parameters_;
+  const KickOption* before = chosen_;
+  chosen_ = choose(request);
+  KickStep step;
+  step.option = chosen_;
+  if (chosen_ == nullptr) return step;
+  const KickHead& head = chosen_->head;
+  KickTo stopped = request;
+  if (!head.fromWalk && !walk.standing()) stopped.ball.x() += p.stopDrift;
+  // Where the ball will be when the first command acts, and by how much it still rolls until contact.
+  KickTo then = stopped;
+  const double delay = kCommandsOnTheWay * kCycleTime;
+  const Pose2& stride = walk.odometryStep();
+  const Pose2 moved = stride * stride;
+  then.ball = moved.inverse() * Vector2(stopped.ball + (delay + head.contact) * request.ballVelocity);
+  then.target = moved.inverse() * request.target;
+  const Way way = wayTo(*chosen_, then);
+  const bool waits = wasInPlace_ && before == chosen_;
+  const double comes = walk.standing() ? 1.0 : kAim;
+  const double share = head.fromWalk ? 1.0 : waits ? p.stay : comes;
+  step.inPlace = std::abs(way.missing.x()) < share * head.tolerance.x() &&
+                 std::abs(way.missing.y()) < share * head.tolerance.y() &&
+                 std::abs(way.turn) < share * p.angle;
+  wasInPlace_ = step.inPlace;
+  step.ball = then.ball;
+  const bool quietly = walk.standing() && quiet >= p.quietTime;
+  step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
+  step.stand = step.inPlace && !head.fromWalk;
+  step.walk = lastSteps(wayTo(*chosen_, stopped));
+  return step;
+}
+
+}  // namespace nonet::motion

@@ -1,0 +1,191 @@
+#include "nonet/team/ball_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nonet/math/angle.h"
+
+namespace nonet::team {
+
+namespace {
+
+constexpr int kDirections = 12;  // to either side of straight ahead
+constexpr double kStep = toRadians(10.0);
+constexpr double kSlowRoll = 3.0;        // s until a kicked ball is slow enough to be taken
+constexpr double kSameKick = 0.2;        // rad
+constexpr double kGoalLineMargin = 0.1;  // m beyond the line that a shot must reach
+
+double logistic(double x) {
+  return 1.0 / (1.0 + std::exp(-x));
+}
+
+Vector2 unit(double direction) {
+  return {std::cos(direction), std::sin(direction)};
+}
+
+// With the ball at p_F, ours with probability `ours`.
+double valueAt(const Situation& s, const Vector2& p_F, double ours) {
+  const auto& field = s.world.field;
+  const ChoiceParameters& p = s.parameters.choice;
+  return ours * worthOf(p_F, field, p) - (1.0 - ours) * worthOf(-p_F, field, p);
+}
+
+double arrival(const world::PlayerState& player, const Vector2& p_F, double pace, double risingTime) {
+  if (!player.known) return std::numeric_limits<double>::infinity();
+  return (player.X_FP.translation - p_F).norm() / pace + (player.fallen ? risingTime : 0.0);
+}
+
+// The probability that one of us is first at a ball that comes to rest there.
+double oursAt(const Situation& s, const Vector2& p_F) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const double rising = s.parameters.pace.risingTime;
+  double own = std::numeric_limits<double>::infinity();
+  double theirs = own;
+  for (std::size_t i = 2; i < s.world.teammates.size(); ++i)
+    own = std::min(own, arrival(s.world.teammates[i], p_F, p.ownPace, rising));
+  for (const world::PlayerState& opponent : s.world.opponents)
+    theirs = std::min(theirs, arrival(opponent, p_F, p.opponentPace, rising));
+  // Nobody takes it before it is slow.
+  own = std::max(own, kSlowRoll);
+  theirs = std::max(theirs, kSlowRoll);
+  if (std::isinf(theirs)) return 1.0;
+  return logistic((theirs - own) / p.arrivalSpread);
+}
+
+// The opponent that most likely stops a ball on its way: with which probability, and where.
+struct Block {
+  double probability = 0.0;
+  Vector2 p_F = Vector2::Zero();
+};
+
+Block blockOf(const Situation& s, const Vector2& way) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const Vector2 ball = s.ball();
+  const double length = std::max(way.norm(), 1e-6);
+  const Vector2 along = way / length;
+  Block block;
+  double passes = 1.0;
+  for (const world::PlayerState& opponent : s.world.opponents) {
+    if (!opponent.known || opponent.fallen) continue;
+    const Vector2 offset = opponent.X_FP.translation - ball;
+    const double ahead = offset.dot(along);
+    if (ahead < 0.0 || ahead > length) continue;
+    const double aside = std::abs(along.x() * offset.y() - along.y() * offset.x());
+    const double reach = p.blockWidth + (p.blockGrowth + p.spread) * ahead;
+    const double stops = std::clamp(1.5 - aside / std::max(reach, 1e-6), 0.0, 1.0);
+    passes *= 1.0 - stops;
+    if (stops <= block.probability) continue;
+    block.probability = stops;
+    block.p_F = opponent.X_FP.translation;
+  }
+  block.probability = 1.0 - passes;
+  return block;
+}
+
+// The probability that a kick in this direction crosses the line between the posts.
+double betweenPosts(const Situation& s, double direction) {
+  const auto& field = s.world.field;
+  const ChoiceParameters& p = s.parameters.choice;
+  const Vector2 ball = s.ball();
+  const double ahead = 0.5 * field.length - ball.x();
+  if (ahead <= 0.0) return 0.0;
+  const double left = std::atan2(0.5 * field.goalWidth - ball.y(), ahead);
+  const double right = std::atan2(-0.5 * field.goalWidth - ball.y(), ahead);
+  const auto below = [&](double angle) {
+    return 0.5 * std::erfc((direction - angle) / (std::sqrt(2.0) * p.spread));
+  };
+  return std::max(0.0, below(left) - below(right));
+}
+
+// Of ending at p_F, which may be out of the field.
+double endValue(const Situation& s, const Vector2& p_F) {
+  const auto& field = s.world.field;
+  const bool out = std::abs(p_F.x()) > 0.5 * field.length || std::abs(p_F.y()) > 0.5 * field.width;
+  if (!out) return valueAt(s, p_F, oursAt(s, p_F));
+  const Vector2 inside(std::clamp(p_F.x(), -0.5 * field.length, 0.5 * field.length),
+                       std::clamp(p_F.y(), -0.5 * field.width, 0.5 * field.width));
+  const ChoiceParameters& p = s.parameters.choice;
+  return -worthOf(-inside, field, p) - p.out * worthOf(inside, field, p);
+}
+
+double secondsLeft(const Situation& s) {
+  double theirs = std::numeric_limits<double>::infinity();
+  for (const world::PlayerState& opponent : s.world.opponents)
+    theirs = std::min(
+        theirs, arrival(opponent, s.ball(), s.parameters.choice.opponentPace, s.parameters.pace.risingTime));
+  return theirs;
+}
+
+double longestKick(const Situation& s) {
+  double longest = 0.0;
+  for (const motion::KickOption& option : s.motion.kicks) longest = std::max(longest, option.head.longest);
+  return longest;
+}
+
+double dribbleValue(const Situation& s) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const Vector2 way = s.p_FTarget - s.ball();
+  const double direction = std::atan2(way.y(), way.x());
+  const Vector2 end = s.ball() + std::min(p.dribbleAhead, way.norm()) * unit(direction);
+  // Robots at the ball bar the way, and those farther on will.
+  const double near = barred(s.world, s.parameters.target, direction);
+  const double lost = p.dribbleLoss * std::max(near, blockOf(s, end - s.ball()).probability);
+  return valueAt(s, end, 1.0 - lost);
+}
+
+// The direction in which the kick goes that motion is about to do; NaN without one.
+double presentKick(const Situation& s) {
+  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
+  if (kick == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  const Vector2 way = s.world.self.X_FR.rotate(kick->target - kick->ball);
+  return std::atan2(way.y(), way.x());
+}
+
+}  // namespace
+
+double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& p) {
+  const Vector2 goal(0.5 * field.length, 0.0);
+  return p.worthMost * std::exp(-(goal - p_F).norm() / p.worthScale);
+}
+
+double kickValue(const Situation& s, double direction, double length) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const double toLine =
+      (0.5 * s.world.field.length + kGoalLineMargin - s.ball().x()) / std::max(std::cos(direction), 1e-3);
+  const bool reaches = std::cos(direction) > 0.1 && toLine < p.shotLength / p.length * length;
+  const double scores = reaches ? betweenPosts(s, direction) : 0.0;
+  const double flown = scores > 0.0 ? std::min(toLine, length) : length;
+  const Block block = blockOf(s, flown * unit(direction));
+  const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unit(direction));
+  return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, 0.3);
+}
+
+BallChoice chooseAction(const Situation& s, Candidates* record) {
+  const ChoiceParameters& p = s.parameters.choice;
+  BallChoice best{false, s.p_FTarget, dribbleValue(s)};
+  if (record != nullptr) record->clear();
+  if (record != nullptr) record->add(s.p_FTarget, best.value);
+  const double length = p.length * longestKick(s);
+  if (length <= 0.0) return best;
+  const auto unum = static_cast<std::size_t>(s.world.game.unum);
+  const double needed = s.timeToBall[unum] + p.setup;
+  const double left = secondsLeft(s);
+  const double comesOff = std::isinf(left) ? 1.0 : logistic((left - needed) / p.setupSpread);
+  const double contested = valueAt(s, s.ball(), 0.5);
+  const double present = presentKick(s);
+  const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
+  const double straight = std::atan2(toGoal.y(), toGoal.x());
+  for (int i = -kDirections; i <= kDirections; ++i) {
+    const double direction = straight + kStep * i;
+    double value = comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
+    if (std::abs(angleDifference(direction, present)) < kSameKick) value += p.keep;
+    const Vector2 target = s.ball() + length * unit(direction);
+    if (record != nullptr) record->add(target, value);
+    if (value <= best.value) continue;
+    best = {true, target, value};
+  }
+  return best;
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,127 @@
+// Which kick is chosen, and when it begins: against the cost worked out by hand, and with a point robot that
+// follows the steps exactly or with a drift.
+#include "nonet/motion/kick_control.h"
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "nonet/math/angle.h"
+#include "nonet/math/random.h"
+#include "nonet/motion/skill_language.h"
+
+namespace nonet::motion {
+namespace {
+
+using model::Side;
+
+constexpr const char* kSkills =
+    "skill kick_a { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..7m contact 0.3s from stand } }\n"
+    "skill kick_b { kick { ball (0.1m, 6cm) within (3cm, 2cm) direction 90deg distance 1m..3m contact 0.4s "
+    "room 1m from stand types 0 4 } }\n"
+    "skill no_kick { wait 1s }";
+
+class Control : public testing::Test {
+ protected:
+  KickTo request(const Vector2& ball, const Vector2& way) const {
+    KickTo kick;
+    kick.ball = ball;
+    kick.target = ball + way;
+    return kick;
+  }
+  KickStep step(const KickTo& kick, double quiet = 0.0) { return control_.update(kick, walk_, quiet); }
+
+  SkillLibrary library_{parseSkills(kSkills, "test.skl")};
+  KickCatalogue catalogue_{library_, 0};
+  KickParameters parameters_;
+  KickControl control_{catalogue_, parameters_};
+  WalkEngine walk_{model::robotModel(0)};  // it stands
+};
+
+TEST_F(Control, TheCatalogueHoldsBothFeetOfEachKickThatServesTheType) {
+  const auto options = catalogue_.options();
+  ASSERT_EQ(options.size(), 4U);
+  EXPECT_EQ(options[0].name, "kick_a");
+  EXPECT_EQ(options[1].foot, Side::Right);
+  EXPECT_TRUE(options[1].head.p_RBall.isApprox(Vector2(0.2, -0.05)));
+  EXPECT_DOUBLE_EQ(options[3].head.direction, toRadians(-90.0));
+  EXPECT_EQ(KickCatalogue(library_, 1).options().size(), 2U);
+}
+
+TEST_F(Control, TakesTheNearerFoot) {
+  EXPECT_EQ(step(request({0.2, 0.05}, {5.0, 0.0})).option->foot, Side::Left);
+  control_.reset();
+  EXPECT_EQ(step(request({0.2, -0.05}, {5.0, 0.0})).option->foot, Side::Right);
+}
+
+// The ball lies for a kick to the left; turning for the kick straight on costs more than its length.
+TEST_F(Control, TakesTheCheaperDirectionUnlessAnOpponentIsNear) {
+  KickTo kick = request({0.1, 0.06}, {0.0, 2.5});
+  EXPECT_EQ(step(kick).option->name, "kick_b");
+  control_.reset();
+  kick.room = 0.9;
+  EXPECT_EQ(step(kick).option->name, "kick_a");
+}
+
+TEST_F(Control, TakesTheOneThatIsNamed) {
+  KickTo kick = request({0.2, 0.05}, {5.0, 0.0});
+  kick.kick = std::string_view("kick_b");
+  EXPECT_EQ(step(kick).option->name, "kick_b");
+  kick.kick = std::string_view("kick_c");
+  EXPECT_EQ(step(kick).option, nullptr);
+}
+
+TEST_F(Control, KeepsItsChoiceThroughSmallChanges) {
+  EXPECT_EQ(step(request({0.2, 0.01}, {5.0, 0.0})).option->foot, Side::Left);
+  EXPECT_EQ(step(request({0.2, -0.01}, {5.0, 0.0})).option->foot, Side::Left);
+  EXPECT_EQ(step(request({0.2, -0.09}, {5.0, 0.0})).option->foot, Side::Right);
+}
+
+TEST_F(Control, BeginsWhenTheBallLiesRightAndTheRobotIsQuiet) {
+  const KickTo there = request({0.21, 0.045}, {5.0, 0.3});
+  EXPECT_TRUE(step(there, 0.0).inPlace);
+  EXPECT_FALSE(step(there, 0.0).begin);
+  const KickStep now = step(there, 1.0);
+  EXPECT_TRUE(now.begin);
+  EXPECT_TRUE(now.ball.isApprox(there.ball));
+  EXPECT_FALSE(step(request({0.26, 0.05}, {5.0, 0.0}), 1.0).begin);
+  EXPECT_FALSE(step(request({0.2, 0.05}, {5.0, 2.0}), 1.0).begin);
+}
+
+// Where a rolling ball will be when the foot meets it decides, not where it is.
+TEST_F(Control, ReckonsWithTheBallsRoll) {
+  KickTo kick = request({0.3, 0.05}, {5.0, 0.0});
+  kick.ballVelocity = Vector2(-0.1 / (0.3 + 2 * kCycleTime), 0.0);
+  const KickStep now = step(kick, 1.0);
+  EXPECT_TRUE(now.begin);
+  EXPECT_NEAR(now.ball.x(), 0.2, 1e-9);
+}
+
+// A point robot that walks as it is told, with a drift such as small steps have.
+TEST_F(Control, TheLastStepsLeadToTheBeginFromAnywhere) {
+  Random random(3);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vector2 ball(random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0));
+    const Vector2 target(10.0, 0.0);
+    Pose2 robot(ball.x() - random.uniform(0.3, 0.8), ball.y() + random.uniform(-0.4, 0.4),
+                random.uniform(-1.0, 1.0));
+    const double way = random.uniform(-kPi, kPi);
+    const Vector2 drift = 0.13 * kCycleTime * Vector2(std::cos(way), std::sin(way));
+    control_.reset();
+    bool began = false;
+    for (int cycle = 0; cycle < 500 && !began; ++cycle) {
+      KickTo kick;
+      kick.ball = robot.inverse() * ball;
+      kick.target = robot.inverse() * target;
+      const KickStep now = step(kick, 1.0);
+      began = now.begin;
+      const Pose2& speed = now.walk.velocity;
+      robot = robot * Pose2(kCycleTime * speed.translation + drift, kCycleTime * speed.rotation);
+    }
+    EXPECT_TRUE(began) << "trial " << trial;
+  }
+}
+
+}  // namespace
+}  // namespace nonet::motion
