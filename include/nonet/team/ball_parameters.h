@@ -126,11 +126,11 @@ struct BallHandlingParameters {
   double alignedAside = 0.10;
   bool kick = true;
   double kickApproach = 1.2;
-  double kickOpponentDistance = 0.8;
+  double kickOpponentDistance = 1.8;
   double kickLane = 0.3;
   double handleDistance = 0.9;
   double waitBehind = 0.35;
-  double kickPress = 0.6;
+  double kickPress = 0.4;
   double kickLaneLength = 3.0;
   double kickRolling = 0.3;
   double kickBehind = 0.08;
