@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
+#include "nonet/motion/walk/balance.h"
 
 namespace nonet::motion {
 
@@ -13,9 +15,6 @@ using model::Side;
 namespace {
 
 constexpr double kNear = 0.01;  // m; from here on the least speed fades, so that it does not jump
-constexpr double kAim =
-    0.6;  // share of the tolerances to reach before coming to a stand, which moves the robot
-constexpr int kCommandsOnTheWay = 2;  // messages until a command acts (server facts 1.2, 1.5)
 
 // Out of the walk a kick begins where the step has ended that stands on the kicking foot: the other one
 // becomes the stance. Only out of slow steps: fast ones leave too much to balance.
@@ -30,7 +29,7 @@ bool stepEnds(const GaitState& gait, Side foot, const KickParameters& p) {
 KickControl::Way KickControl::wayTo(const KickOption& option, const KickTo& request) const {
   const Vector2 way = request.target - request.ball;
   Way result;
-  result.turn = wrapAngle(std::atan2(way.y(), way.x()) - option.head.direction);
+  result.turn = wrapAngle(directionOf(way) - option.head.direction);
   result.place = request.ball - Pose2(Vector2::Zero(), result.turn).rotate(option.head.p_RBall);
   result.missing = request.ball - option.head.p_RBall;
   return result;
@@ -71,6 +70,25 @@ WalkVelocity KickControl::lastSteps(const Way& way) const {
   return walk;
 }
 
+// Where ball and target will be seen when the present steps have gone on for so long.
+KickTo KickControl::after(double seconds, const KickTo& request, const WalkEngine& walk) const {
+  const double cycles = seconds / kCycleTime;
+  const Pose2& stride = walk.odometryStep();
+  const Pose2 back = Pose2(cycles * stride.translation, cycles * stride.rotation).inverse();
+  KickTo then = request;
+  if (!chosen_->head.fromWalk && !walk.standing()) then.ball.x() += parameters_.stopDrift;
+  then.ball = back * Vector2(then.ball);
+  then.target = back * request.target;
+  return then;
+}
+
+bool KickControl::within(double share, const Way& way) const {
+  const KickHead& head = chosen_->head;
+  return std::abs(way.missing.x()) < share * head.tolerance.x() &&
+         std::abs(way.missing.y()) < share * head.tolerance.y() &&
+         std::abs(way.turn) < share * parameters_.angle;
+}
+
 KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, double quiet) {
   const KickParameters& p = parameters_;
   const KickOption* before = chosen_;
@@ -78,29 +96,20 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
   KickStep step;
   step.option = chosen_;
   if (chosen_ == nullptr) return step;
+  if (chosen_ != before) comesToStand_ = false;
   const KickHead& head = chosen_->head;
-  KickTo stopped = request;
-  if (!head.fromWalk && !walk.standing()) stopped.ball.x() += p.stopDrift;
-  // Where the ball will be when the first command acts, and by how much it still rolls until contact.
-  KickTo then = stopped;
-  const double delay = kCommandsOnTheWay * kCycleTime;
-  const Pose2& stride = walk.odometryStep();
-  const Pose2 moved = stride * stride;
-  then.ball = moved.inverse() * Vector2(stopped.ball + (delay + head.contact) * request.ballVelocity);
-  then.target = moved.inverse() * request.target;
+  step.walk = lastSteps(wayTo(*chosen_, after(p.coast, request, walk)));
+  // Where the ball will be when the kick begins, and by how much it still rolls until contact.
+  const double delay = CommandHistory::kDelay * kCycleTime;
+  KickTo then = after(head.fromWalk ? delay : 0.0, request, walk);
+  then.ball += (delay + head.contact) * request.ballVelocity;
   const Way way = wayTo(*chosen_, then);
-  const bool waits = wasInPlace_ && before == chosen_;
-  const double comes = walk.standing() ? 1.0 : kAim;
-  const double share = head.fromWalk ? 1.0 : waits ? p.stay : comes;
-  step.inPlace = std::abs(way.missing.x()) < share * head.tolerance.x() &&
-                 std::abs(way.missing.y()) < share * head.tolerance.y() &&
-                 std::abs(way.turn) < share * p.angle;
-  wasInPlace_ = step.inPlace;
-  step.ball = then.ball;
   const bool quietly = walk.standing() && quiet >= p.quietTime;
+  step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
+  comesToStand_ = step.inPlace;
+  step.ball = then.ball;
   step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
   step.stand = step.inPlace && !head.fromWalk;
-  step.walk = lastSteps(wayTo(*chosen_, stopped));
   return step;
 }
 

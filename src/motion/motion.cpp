@@ -124,7 +124,9 @@ bool Motion::Stages::startKick(const KickTo& request) {
   const KickStep step = kicks.update(request, walk.engine(), quiet);
   if (step.option == nullptr) return false;
   state.kick = step.option->name;
+  state.kickFoot = step.option->foot;
   state.kickInPlace = step.inPlace;
+  state.kickBall = step.ball;
   if (step.begin &&
       player.start(step.option->name, step.option->foot == model::Side::Right, targets.angles, step.ball)) {
     kickName = step.option->name;
@@ -132,7 +134,7 @@ bool Motion::Stages::startKick(const KickTo& request) {
     return true;
   }
   if (step.stand) {
-    kickSteps.emplace(Stand{});
+    kickSteps.emplace(Stand{.soon = true});
   } else {
     kickSteps.emplace(step.walk);
   }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "nonet/math/direction.h"
+
 namespace nonet::motion {
 
 HeadRequest Watch::update(const world::WorldState& world) {
@@ -23,7 +25,7 @@ HeadRequest Watch::update(const world::WorldState& world) {
   if (blind && world.time < glanceUntil_) {
     // Most landmarks stand at the ends of the field: raise the head, and look past the ball.
     request.kind = HeadRequest::Kind::Look;
-    const double bearing = std::atan2(ball.y(), ball.x());
+    const double bearing = directionOf(ball);
     request.pan = bearing > 0.0 ? bearing - 1.0 : bearing + 1.0;
     request.tilt = 0.0;
     return request;

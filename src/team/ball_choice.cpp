@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 
 namespace nonet::team {
 
@@ -20,10 +23,6 @@ double logistic(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-Vector2 unit(double direction) {
-  return {std::cos(direction), std::sin(direction)};
-}
-
 // With the ball at p_F, ours with probability `ours`.
 double valueAt(const Situation& s, const Vector2& p_F, double ours) {
   const auto& field = s.world.field;
@@ -36,21 +35,32 @@ double arrival(const world::PlayerState& player, const Vector2& p_F, double pace
   return (player.X_FP.translation - p_F).norm() / pace + (player.fallen ? risingTime : 0.0);
 }
 
-// The probability that one of us is first at a ball that comes to rest there.
+// s until the first of them is there; infinite without any.
+double soonest(std::span<const world::PlayerState> players, const Vector2& p_F, double pace,
+               double risingTime) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const world::PlayerState& player : players)
+    least = std::min(least, arrival(player, p_F, pace, risingTime));
+  return least;
+}
+
+double opponentsTime(const Situation& s, const Vector2& p_F) {
+  return soonest(s.world.opponents, p_F, s.parameters.choice.opponentPace, s.parameters.pace.risingTime);
+}
+
+// That we need `ours` and they `theirs` seconds, which may be infinite: the probability that we are first.
+double first(double ours, double theirs, double spread) {
+  return std::isinf(theirs) ? 1.0 : logistic((theirs - ours) / spread);
+}
+
+// The probability that one of us is first at a ball that comes to rest there; nobody takes it before it is
+// slow. The goalie stays at home.
 double oursAt(const Situation& s, const Vector2& p_F) {
   const ChoiceParameters& p = s.parameters.choice;
-  const double rising = s.parameters.pace.risingTime;
-  double own = std::numeric_limits<double>::infinity();
-  double theirs = own;
-  for (std::size_t i = 2; i < s.world.teammates.size(); ++i)
-    own = std::min(own, arrival(s.world.teammates[i], p_F, p.ownPace, rising));
-  for (const world::PlayerState& opponent : s.world.opponents)
-    theirs = std::min(theirs, arrival(opponent, p_F, p.opponentPace, rising));
-  // Nobody takes it before it is slow.
-  own = std::max(own, kSlowRoll);
-  theirs = std::max(theirs, kSlowRoll);
-  if (std::isinf(theirs)) return 1.0;
-  return logistic((theirs - own) / p.arrivalSpread);
+  const std::span<const world::PlayerState> field(s.world.teammates.begin() + 2, s.world.teammates.end());
+  const double own = std::max(soonest(field, p_F, p.ownPace, s.parameters.pace.risingTime), kSlowRoll);
+  const double theirs = std::max(opponentsTime(s, p_F), kSlowRoll);
+  return first(own, theirs, p.arrivalSpread);
 }
 
 // The opponent that most likely stops a ball on its way: with which probability, and where.
@@ -109,14 +119,6 @@ double endValue(const Situation& s, const Vector2& p_F) {
   return -worthOf(-inside, field, p) - p.out * worthOf(inside, field, p);
 }
 
-double secondsLeft(const Situation& s) {
-  double theirs = std::numeric_limits<double>::infinity();
-  for (const world::PlayerState& opponent : s.world.opponents)
-    theirs = std::min(
-        theirs, arrival(opponent, s.ball(), s.parameters.choice.opponentPace, s.parameters.pace.risingTime));
-  return theirs;
-}
-
 double longestKick(const Situation& s) {
   double longest = 0.0;
   for (const motion::KickOption& option : s.motion.kicks) longest = std::max(longest, option.head.longest);
@@ -126,20 +128,19 @@ double longestKick(const Situation& s) {
 double dribbleValue(const Situation& s) {
   const ChoiceParameters& p = s.parameters.choice;
   const Vector2 way = s.p_FTarget - s.ball();
-  const double direction = std::atan2(way.y(), way.x());
-  const Vector2 end = s.ball() + std::min(p.dribbleAhead, way.norm()) * unit(direction);
+  const double direction = directionOf(way);
+  const Vector2 end = s.ball() + std::min(p.dribbleAhead, way.norm()) * unitVector(direction);
   // Robots at the ball bar the way, and those farther on will.
   const double near = barred(s.world, s.parameters.target, direction);
   const double lost = p.dribbleLoss * std::max(near, blockOf(s, end - s.ball()).probability);
   return valueAt(s, end, 1.0 - lost);
 }
 
-// The direction in which the kick goes that motion is about to do; NaN without one.
-double presentKick(const Situation& s) {
+// The direction in which the kick goes that motion is about to do.
+std::optional<double> presentKick(const Situation& s) {
   const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
-  if (kick == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  const Vector2 way = s.world.self.X_FR.rotate(kick->target - kick->ball);
-  return std::atan2(way.y(), way.x());
+  if (kick == nullptr) return std::nullopt;
+  return directionOf(s.world.self.X_FR.rotate(kick->target - kick->ball));
 }
 
 }  // namespace
@@ -156,8 +157,8 @@ double kickValue(const Situation& s, double direction, double length) {
   const bool reaches = std::cos(direction) > 0.1 && toLine < p.shotLength / p.length * length;
   const double scores = reaches ? betweenPosts(s, direction) : 0.0;
   const double flown = scores > 0.0 ? std::min(toLine, length) : length;
-  const Block block = blockOf(s, flown * unit(direction));
-  const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unit(direction));
+  const Block block = blockOf(s, flown * unitVector(direction));
+  const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unitVector(direction));
   return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, 0.3);
 }
 
@@ -170,17 +171,17 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   if (length <= 0.0) return best;
   const auto unum = static_cast<std::size_t>(s.world.game.unum);
   const double needed = s.timeToBall[unum] + p.setup;
-  const double left = secondsLeft(s);
-  const double comesOff = std::isinf(left) ? 1.0 : logistic((left - needed) / p.setupSpread);
+  const double left = opponentsTime(s, s.ball());
+  const double comesOff = first(needed, left, p.setupSpread);
   const double contested = valueAt(s, s.ball(), 0.5);
-  const double present = presentKick(s);
+  const std::optional<double> present = presentKick(s);
   const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
-  const double straight = std::atan2(toGoal.y(), toGoal.x());
+  const double straight = directionOf(toGoal);
   for (int i = -kDirections; i <= kDirections; ++i) {
     const double direction = straight + kStep * i;
     double value = comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
-    if (std::abs(angleDifference(direction, present)) < kSameKick) value += p.keep;
-    const Vector2 target = s.ball() + length * unit(direction);
+    if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
+    const Vector2 target = s.ball() + length * unitVector(direction);
     if (record != nullptr) record->add(target, value);
     if (value <= best.value) continue;
     best = {true, target, value};

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/team/ball_play.h"
 
 namespace nonet::team {
@@ -12,10 +13,6 @@ namespace {
 constexpr int kPlacesAside = 3;  // in the goal, on either side of the middle
 constexpr int kTurns = 4;        // around an opponent, to either side
 constexpr double kTurnStep = toRadians(15);
-
-double angleOf(const Vector2& way) {
-  return std::atan2(way.y(), way.x());
-}
 
 // Where the ball should end up if nobody were on the field.
 Vector2 goalTarget(const world::WorldState& world, const BallTargetParameters& p) {
@@ -38,7 +35,7 @@ Vector2 openGoal(const world::WorldState& world, const BallTargetParameters& p, 
   double bestScore = -1e9;
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goalX + p.behindLine, side * i / kPlacesAside);
-    const double turn = std::abs(angleDifference(angleOf(place - ball), world.self.X_FR.rotation));
+    const double turn = std::abs(angleDifference(directionOf(place - ball), world.self.X_FR.rotation));
     const double score = laneWidth(world, ball, place, p.laneWidth) - p.openTurnCost * turn -
                          p.openMiddle * std::abs(place.y());
     if (record != nullptr) record->add(place, score);
@@ -53,12 +50,12 @@ Vector2 openGoal(const world::WorldState& world, const BallTargetParameters& p, 
 Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParameters& p, const Vector2& target,
                         Candidates* record) {
   const Vector2 ball = world.ball.p_FB.head<2>();
-  const double straight = angleOf(target - ball);
+  const double straight = directionOf(target - ball);
   double best = straight;
   double bestScore = -1e9;
   for (int i = -kTurns; i <= kTurns; ++i) {
     const double turn = i * kTurnStep;
-    const Vector2 end = ball + Vector2(std::cos(straight + turn), std::sin(straight + turn));
+    const Vector2 end = ball + unitVector(straight + turn);
     const bool out = std::abs(end.y()) > 0.5 * world.field.width - p.touchLineMargin;
     const double facing = angleDifference(straight + turn, world.self.X_FR.rotation);
     const double score = std::cos(turn) - p.barCost * barred(world, p, straight + turn) -
@@ -68,7 +65,7 @@ Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParamete
     bestScore = score;
     best = straight + turn;
   }
-  return best != straight ? Vector2(ball + p.around * Vector2(std::cos(best), std::sin(best))) : target;
+  return best != straight ? Vector2(ball + p.around * unitVector(best)) : target;
 }
 
 }  // namespace
@@ -80,7 +77,7 @@ double barred(const world::WorldState& world, const BallTargetParameters& p, dou
     const Vector2 offset = player.X_FP.translation - world.ball.p_FB.head<2>();
     const double distance = offset.norm();
     if (distance > p.barReach) continue;
-    const double angle = std::abs(angleDifference(angleOf(offset), direction));
+    const double angle = std::abs(angleDifference(directionOf(offset), direction));
     const double nearness = 1.0 - distance / p.barReach;
     most = std::max(most, nearness * std::clamp(2.0 - angle / p.barWidth, 0.0, 1.0));
   }
@@ -106,7 +103,7 @@ Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& p
   const bool inFront = std::abs(toGoal.y()) < toGoal.x() + 0.5 * world.field.goalWidth - p.atGoalInside;
   if (toGoal.norm() < p.atGoal && inFront) return openGoal(world, p, record);
   Vector2 target = goalTarget(world, p);
-  if (barred(world, p, angleOf(target - ball)) == 0.0) return target;
+  if (barred(world, p, directionOf(target - ball)) == 0.0) return target;
   return aroundOpponents(world, p, target, record);
 }
 

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "nonet/math/direction.h"
+
 namespace nonet::team {
 
 namespace {
@@ -59,8 +61,8 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
     for (int k = 0; k < kRings * kDirections && !found; ++k) {
       const double angle = 2.0 * kPi * (k % kDirections) / kDirections;
       const double radius = kRing * (1 + k / kDirections);  // NOLINT(bugprone-integer-division): ring number
-      const Vector2 place = insideField(wanted + radius * Vector2(std::cos(angle), std::sin(angle)), field,
-                                        parameters.touchLineMargin);
+      const Vector2 place =
+          insideField(wanted + radius * unitVector(angle), field, parameters.touchLineMargin);
       found = rules.allows(i, place);
       if (found) formation.positions[i] = place;
     }

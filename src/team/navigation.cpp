@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "nonet/math/direction.h"
+
 namespace nonet::team {
 
 namespace {
@@ -90,10 +92,9 @@ Way chooseWay(const world::WorldState& world, const NavigationParameters& parame
   const Vector2 start = world.self.X_FR.translation;
   const double wanted = headingTo(world, p_FTarget);
   const double need = std::min((p_FTarget - start).norm(), parameters.horizon);
-  const auto direction = [](double angle) { return Vector2(std::cos(angle), std::sin(angle)); };
   Way best;
   best.heading = wanted;
-  if (freeWay(start, direction(wanted), need, parameters.slip, obstacles) >= need - 1e-9) return best;
+  if (freeWay(start, unitVector(wanted), need, parameters.slip, obstacles) >= need - 1e-9) return best;
   best.straight = false;
   double bestScore = -std::numeric_limits<double>::infinity();
   const double facing = angleDifference(world.self.X_FR.rotation, wanted);
@@ -102,7 +103,7 @@ Way chooseWay(const world::WorldState& world, const NavigationParameters& parame
     const double turn = i * kHeadingStep;
     // Between two that stand close together rather than back out of a trap.
     for (const double share : {1.0, parameters.narrow}) {
-      const double free = freeWay(start, direction(wanted + turn), std::min(need, parameters.freeWay),
+      const double free = freeWay(start, unitVector(wanted + turn), std::min(need, parameters.freeWay),
                                   parameters.slip, obstacles, share);
       const double score = free - parameters.turnCost * std::abs(turn) -
                            parameters.facingCost * std::abs(wrapAngle(turn - facing)) -
@@ -126,7 +127,7 @@ double roomLeft(const Vector2& start, double bodyRoom, std::span<const Obstacle>
 
 double headingTo(const world::WorldState& world, const Vector2& p_F) {
   const Vector2 way = p_F - world.self.X_FR.translation;
-  return std::atan2(way.y(), way.x());
+  return directionOf(way);
 }
 
 motion::MotionRequest walkTo(const world::WorldState& world, const NavigationParameters& parameters,
@@ -151,7 +152,7 @@ motion::MotionRequest walkTo(const world::WorldState& world, const NavigationPar
   }
   // Around somebody: a step at a time, slowly where it is narrow. Giving way to somebody close needs no turn.
   const double step = crowded ? parameters.slowStep : parameters.detourStep;
-  const Vector2 next = start + step * Vector2(std::cos(way.heading), std::sin(way.heading));
+  const Vector2 next = start + step * unitVector(way.heading);
   const double heading = crowded ? world.self.X_FR.rotation : way.heading;
   return motion::WalkTo{X_RF * Pose2(next, heading), crowded};
 }

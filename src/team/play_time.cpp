@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/math/direction.h"
 #include "nonet/world/ball_law.h"
 
 namespace nonet::team {
@@ -16,9 +17,9 @@ double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_F
                    const PaceParameters& pace) {
   const Vector2 way = p_FB - runner.X_FP.translation;
   const Vector2 onward = p_FTarget - p_FB;
-  const double bearing = std::atan2(way.y(), way.x());
+  const double bearing = directionOf(way);
   // Nothing to walk around for a runner behind the ball, most for one that comes from where it should go.
-  const double wrongSide = 0.5 * (1.0 - std::cos(bearing - std::atan2(onward.y(), onward.x())));
+  const double wrongSide = 0.5 * (1.0 - std::cos(bearing - directionOf(onward)));
   const double turn =
       runner.headingKnown ? std::abs(angleDifference(bearing, runner.X_FP.rotation)) : 0.5 * kPi;
   return (way.norm() + wrongSide * pace.wayAround) / pace.walkSpeed + turn / pace.turnSpeed +

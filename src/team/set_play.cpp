@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 
 namespace nonet::team {
 
@@ -20,13 +21,13 @@ double direction(world::Phase phase, const Vector2& p_FB, const world::FieldGeom
       return inwards * parameters.kickInAngle;
     case world::Phase::OwnCorner: {
       const Vector2 way = Vector2(0.5 * field.length - parameters.cornerBack, 0.0) - p_FB;
-      return std::atan2(way.y(), way.x());
+      return directionOf(way);
     }
     case world::Phase::OwnGoalKick:
       return inwards * parameters.goalKickAngle;
     default: {
       const Vector2 way = Vector2(0.5 * field.length, 0.0) - p_FB;
-      return std::atan2(way.y(), way.x());
+      return directionOf(way);
     }
   }
 }
@@ -36,7 +37,7 @@ double direction(world::Phase phase, const Vector2& p_FB, const world::FieldGeom
 SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGeometry& field,
                    const SetPlayParameters& parameters) {
   const double angle = direction(phase, p_FB, field, parameters);
-  const Vector2 along(std::cos(angle), std::sin(angle));
+  const Vector2 along = unitVector(angle);
   SetPlay play;
   play.p_FTarget = p_FB + 2.0 * parameters.passLength * along;
   play.p_FReceiver = p_FB + parameters.passLength * along - Vector2(parameters.behindPass, 0.0);

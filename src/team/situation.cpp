@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nonet/math/direction.h"
 #include "nonet/team/ball_choice.h"
 
 namespace nonet::team {
@@ -61,7 +62,7 @@ bool Situation::free() const {
 
 Pose2 BallPlay::placeBehind(double distance) const {
   const Vector2 way = p_FTarget - p_FMeeting;
-  return {p_FMeeting - distance * way.normalized(), std::atan2(way.y(), way.x())};
+  return {p_FMeeting - distance * way.normalized(), directionOf(way)};
 }
 
 BallPlay playTowards(const Situation& s, const Vector2& p_FTarget, KickUse use, bool wait) {
@@ -74,8 +75,8 @@ BallPlay playTowards(const Situation& s, const Vector2& p_FTarget, KickUse use, 
   play.ball = s.world.ball.p_RB;
   play.target = X_FR.inverse() * p_FTarget;
   const Vector2 way = play.target - play.ball;
-  play.direction = std::atan2(way.y(), way.x());
-  play.along = Vector2(std::cos(play.direction), std::sin(play.direction));
+  play.direction = directionOf(way);
+  play.along = unitVector(play.direction);
   play.aside = Vector2(-play.along.y(), play.along.x());
   play.behind = play.ball.dot(play.along);
   play.besides = play.ball.dot(play.aside);

@@ -3,18 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include "nonet/agent/agent_setup.h"
 #include "nonet/lab/reports/kick_report.h"
 #include "nonet/math/angle.h"
+
+#include "motion/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
 
 KickReportSettings settingsOf(int type) {
-  agent::AgentChoice choice;
-  choice.robotType = type;
   KickReportSettings settings;
-  settings.agent = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  settings.agent = agentOfType(type);
   return settings;
 }
 
@@ -61,7 +60,7 @@ TEST(KickReport, MeasuresTheFanOfTheBallsWays) {
   settings.trials = 2;
   const KickStatistics kicks = measureKicks(settings).at(0);
   const std::string svg = kickReportSvg(kicks);
-  EXPECT_EQ(std::count(svg.begin(), svg.end(), '\n') > 20, true);
+  EXPECT_GT(std::count(svg.begin(), svg.end(), '\n'), 20);
   for (const Kick& kick : kicks.kicks) {
     EXPECT_EQ(kick.path.empty(), !kick.contact);
   }

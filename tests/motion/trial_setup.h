@@ -6,10 +6,14 @@
 
 namespace nonet::lab {
 
-inline TrialSetup agentTrialSetup(int type) {
+inline agent::AgentConfig agentOfType(int type) {
   agent::AgentChoice choice;
   choice.robotType = type;
-  return trialSetup(agent::makeAgentConfig(choice, NONET_SOURCE_DIR));
+  return agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+}
+
+inline TrialSetup agentTrialSetup(int type) {
+  return trialSetup(agentOfType(type));
 }
 
 }  // namespace nonet::lab

@@ -6,100 +6,12 @@
 // share of a full one, half a metre when the robot must go around the ball; the time to contact is ours.
 #pragma once
 
-#include <optional>
-
-#include "nonet/config/parameters.h"
 #include "nonet/motion/kick_catalogue.h"
+#include "nonet/motion/kick_parameters.h"
 #include "nonet/motion/request.h"
 #include "nonet/motion/walk/engine.h"
 
 namespace nonet::motion {
-
-struct KickParameters {
-  double turnCost = 0.16;
-  double aroundCost = 0.5;
-  double timeCost = 1.0;
-  double shortCost = 0.2;
-  double standCost = 0.4;
-  double keep = 0.1;
-  double angle = 0.2;
-  double stay = 1.5;
-  double stopDrift = 0.01;
-  double gain = 3.5;
-  double leastSpeed = 0.1;
-  double mostSpeed = 0.8;
-  double strideSpeed = 0.12;
-  double strideTurn = 0.24;
-  double quietRate = 0.35;
-  double quietTime = 0.04;
-
-  template <class Self, class Visitor>
-  static void describe(Self& self, Visitor&& visit) {
-    using namespace config;
-    visit({"turnCost", Unit::None, {0, 5}, fixed, "Choice of a kick: metres that a turn by 1 rad is worth"},
-          self.turnCost);
-    visit({"aroundCost", Unit::Metre, {0, 5}, fixed, "Choice of a kick: cost of going around the ball"},
-          self.aroundCost);
-    visit({"timeCost",
-           Unit::MetrePerSecond,
-           {0, 10},
-           fixed,
-           "Choice of a kick: cost per second from its begin to contact"},
-          self.timeCost);
-    visit({"shortCost",
-           Unit::None,
-           {0, 10},
-           fixed,
-           "Choice of a kick: cost per metre that it carries too short or too far"},
-          self.shortCost);
-    visit({"standCost",
-           Unit::Metre,
-           {0, 5},
-           fixed,
-           "Choice of a kick: cost of coming to a stand before it, where it does not begin out of steps"},
-          self.standCost);
-    visit({"keep", Unit::Metre, {0, 5}, fixed, "A chosen kick is kept while no other is cheaper by this"},
-          self.keep);
-    visit({"angle", Unit::Radian, {0, 3.2}, fixed, "Largest error of the direction when a kick begins"},
-          self.angle);
-    visit({"stay",
-           Unit::None,
-           {1, 5},
-           fixed,
-           "Tolerances grow by this factor while the robot comes to its stand for a kick"},
-          self.stay);
-    visit({"stopDrift",
-           Unit::Metre,
-           {-0.1, 0.1},
-           search(-0.05, 0.05),
-           "How much farther ahead the ball lies when the robot has come from its steps to a stand"},
-          self.stopDrift);
-    visit({"gain", Unit::Hertz, {0.1, 20}, search(1, 8), "Speed per distance in the last steps"}, self.gain);
-    visit({"leastSpeed",
-           Unit::MetrePerSecond,
-           {0, 1},
-           search(0, 0.3),
-           "Speed of the last steps besides what the gain gives"},
-          self.leastSpeed);
-    visit({"mostSpeed", Unit::MetrePerSecond, {0, 3}, search(0.3, 1.2), "Fastest speed of the last steps"},
-          self.mostSpeed);
-    visit({"strideSpeed",
-           Unit::MetrePerSecond,
-           {0, 3},
-           fixed,
-           "A kick out of the walk begins in steps that are slower than this"},
-          self.strideSpeed);
-    visit({"strideTurn", Unit::RadianPerSecond, {0, 10}, fixed, "and turn slower than this"},
-          self.strideTurn);
-    visit({"quietRate",
-           Unit::RadianPerSecond,
-           {0, 10},
-           fixed,
-           "Kicks from a stand begin when the torso turns slower than this"},
-          self.quietRate);
-    visit({"quietTime", Unit::Second, {0, 2}, fixed, "and has done so for this long"}, self.quietTime);
-  }
-};
 
 /// What the kick control wants in a cycle.
 struct KickStep {
@@ -131,12 +43,14 @@ class KickControl {
   Way wayTo(const KickOption& option, const KickTo& request) const;
   double cost(const KickOption& option, const KickTo& request) const;
   const KickOption* choose(const KickTo& request) const;
+  KickTo after(double seconds, const KickTo& request, const WalkEngine& walk) const;
   WalkVelocity lastSteps(const Way& way) const;
+  bool within(double share, const Way& way) const;
 
   const KickCatalogue* catalogue_;
   KickParameters parameters_;
   const KickOption* chosen_ = nullptr;
-  bool wasInPlace_ = false;
+  bool comesToStand_ = false;  // in the last cycle
 };
 
 }  // namespace nonet::motion

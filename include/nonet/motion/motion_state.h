@@ -18,7 +18,9 @@ struct MotionState {
   bool skillFinished = false;  // the requested skill ended in this cycle
   std::optional<Pose2> beam;   // asked for in the last cycle, own field frame
   std::string_view kick;       // name of the kick that is chosen or runs; empty: none
-  bool kickInPlace = false;    // the ball lies where that kick wants it
+  model::Side kickFoot = model::Side::Left;
+  bool kickInPlace = false;            // the ball lies where that kick wants it
+  Vector2 kickBall = Vector2::Zero();  // where it is to find the ball, robot frame, m
 
   std::span<const KickOption> kicks;  // all that this robot can do
 

@@ -4,7 +4,7 @@
 #include "nonet/config/parameters.h"
 #include "nonet/motion/fall_control.h"
 #include "nonet/motion/head_control.h"
-#include "nonet/motion/kick_control.h"
+#include "nonet/motion/kick_parameters.h"
 #include "nonet/motion/skill_parameters.h"
 #include "nonet/motion/walk/control.h"
 

@@ -17,6 +17,7 @@ enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Sidestep, Pos
 /// A stable crouch.
 struct Stand {
   WalkSet set = WalkSet::Automatic;
+  bool soon = false;  // out of steps that are small already: two steps earlier, less quietly
 };
 
 /// Walks with this speed: m/s, m/s, rad/s in the robot frame; clamped to what the walk can do.

@@ -139,6 +139,8 @@ struct BallHandlingParameters {
   double circleBehind = 0.5;
   double faceAway = 1.0;
   double waitRoom = 0.25;
+  double awaitMargin = 1.5;
+  double awaitAside = 0.3;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -233,6 +235,14 @@ struct BallHandlingParameters {
            fixed,
            "An approach point farther than this is faced on the way there"},
           self.faceAway);
+    visit({"awaitMargin",
+           Unit::Second,
+           {-10, 100},
+           search(0, 5),
+           "A ball rolls out before it is kicked when no opponent is there until so long after"},
+          self.awaitMargin);
+    visit({"awaitAside", Unit::Metre, {0, 2}, fixed, "and who waits for it keeps this far from its way"},
+          self.awaitAside);
     visit(
         {"waitRoom", Unit::Metre, {0, 2}, fixed, "Set piece: room that the waiting taker leaves to the ball"},
         self.waitRoom);

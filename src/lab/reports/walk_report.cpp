@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "nonet/math/direction.h"
+
 #include "lab/common/parallel.h"
 
 namespace nonet::lab {
@@ -60,7 +62,7 @@ Walk walkInDirection(MeasuredRobot& trial, const WalkReportSettings& settings, d
   begin(trial, random);
   NoisyPose noisy(settings, random.fork(1));
   const Pose2 start = trial.pose();
-  const Vector2 along(std::cos(direction), std::sin(direction));
+  const Vector2 along = unitVector(direction);
   motion::WalkVelocity request;
   Walk walk;
   double before = 0.0;

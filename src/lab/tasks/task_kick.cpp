@@ -7,8 +7,6 @@
 #include <mutex>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "nonet/lab/trial/kick_trial.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
@@ -19,11 +17,11 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kKicks = 4;            // a trial: four bearings
-constexpr double kPenalty = -1.0;    // m
-constexpr double kPerSecond = 1.2;   // m/s
-constexpr double kStraight = 0.175;  // rad
-constexpr double kRolling = 0.3;     // m/s
+constexpr int kKicks = 4;           // a trial: four bearings
+constexpr double kPenalty = -1.0;   // m
+constexpr double kPerSecond = 1.2;  // m/s
+constexpr double kStraight = toRadians(10.0);
+constexpr double kRolling = 0.3;  // m/s
 
 class KickTask final : public Task {
  public:

@@ -11,15 +11,26 @@ namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
   static const std::array tasks{
-      &goToTargetTask(), &surefootedTask(),       &standardCourseTask(), &sidestepTask(),
-      &duelTask(),       &sprintTask(),           &getupTask(),          &getupFrontTask(),
-      &getupBackTask(),  &kickTask("kick_power"), &diveTask(),           &quadraticTask(),
+      &goToTargetTask(),
+      &surefootedTask(),
+      &standardCourseTask(),
+      &sidestepTask(),
+      &duelTask(),
+      &sprintTask(),
+      &getupTask(),
+      &getupFrontTask(),
+      &getupBackTask(),
+      &swingTask("power"),
+      &kickTask("kick_power"),
+      &diveTask(),
+      &quadraticTask(),
   };
   return tasks;
 }
 
 const Task& findTask(std::string_view name) {
   if (name.starts_with("kick_")) return kickTask(name);
+  if (name.starts_with("swing_")) return swingTask(name.substr(std::string_view("swing_").size()));
   std::string known;
   for (const Task* task : registeredTasks()) {
     if (task->name() == name) return *task;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <optional>
-#include <variant>
 
 #include "nonet/lab/trial/game_trial.h"
+#include "nonet/math/direction.h"
 #include "nonet/math/random.h"
-#include "nonet/team/behaviors.h"
 #include "nonet/world/ball_law.h"
+
+#include "lab/trial/kicker.h"
 
 namespace nonet::lab {
 
@@ -20,48 +19,6 @@ constexpr double kHit = 0.7;       // m/s that a kick adds at least to the ball'
 constexpr double kLasts = 2.0;     // s after contact that the robot must stand
 constexpr double kRollsOut = 8.0;  // s, for a ball that flies and bounces
 constexpr int kBearings = 10;
-
-// Plays the ball to the target with the team's own behaviours but for dribbling.
-class Kicker {
- public:
-  Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick)
-      : parameters_(parameters), p_FTarget_(p_FTarget) {
-    kick_.assign(kick);
-  }
-
-  team::Action operator()(const world::WorldState& world, const motion::MotionState& motion) {
-    busy = motion.busy;
-    if (!world.ball.known || !world.self.localized || motion.busy || motion.rising) return {};
-    team::Situation situation = team::assess(world, parameters_, motion);
-    situation.play = team::playTowards(situation, p_FTarget_, team::KickUse::Clear);
-    for (const auto& behavior : {team::goToBall, team::kick, team::goBehindBall}) {
-      std::optional<team::Action> action = behavior(situation);
-      if (!action) continue;
-      if (auto* request = std::get_if<motion::KickTo>(&action->motion)) request->kick = kick_;
-      return *action;
-    }
-    return {};
-  }
-
-  bool busy = false;  // a skill runs
-
- private:
-  team::TeamParameters parameters_;
-  Vector2 p_FTarget_;
-  InlineString<32> kick_;
-};
-
-GameSituation situationOf(const agent::AgentConfig& agent, const KickScene& scene, Random& random,
-                          const Vector2& ball, double heading) {
-  GameSituation situation;
-  const double from = heading + scene.bearing;
-  const Vector2 place = ball - scene.start * Vector2(std::cos(from), std::sin(from));
-  situation.players = {{agent, false, Pose2(place, from), {}}};
-  situation.ball = ball;
-  const double way = random.uniform(-kPi, kPi);
-  situation.ballVelocity = scene.rolling * random.uniform(0.0, 1.0) * Vector2(std::cos(way), std::sin(way));
-  return situation;
-}
 
 world::BallMotion motionOf(const GameTrial& trial) {
   return {trial.ball(), trial.ballVelocity()};
@@ -107,31 +64,22 @@ double kickBearing(int trial) {
 Kick kickOnce(const agent::AgentConfig& agent, const sim::Settings& settings, const KickScene& scene,
               std::uint64_t seed) {
   Random random(seed);
-  // Where lines and goals are as far as anywhere on average.
-  const Vector2 start(random.uniform(-8.0, 4.0), random.uniform(-5.0, 5.0));
-  const double heading = random.uniform(-0.7, 0.7);
-  const auto target = Vector2(start + scene.distance * Vector2(std::cos(heading), std::sin(heading)));
-  GameSituation situation = situationOf(agent, scene, random, start, heading);
-  auto kicker = std::make_shared<Kicker>(agent.parameters.team, target, scene.kick);
-  situation.players[0].mind = [kicker](const world::WorldState& world, const motion::MotionState& motion) {
-    return (*kicker)(world, motion);
-  };
-  GameTrial trial(settings, situation, random.next());
+  const KickGame game = kickGame(agent, scene, random);
+  GameTrial trial(settings, game.situation, random.next());
   Kick kick;
-  double speed = situation.ballVelocity.norm();
-  Vector2 from = start;
+  double speed = game.situation.ballVelocity.norm();
+  Vector2 from = game.situation.ball;
   while (trial.time() < scene.longest && !kick.contact) {
     from = trial.ball().head<2>();
     trial.step();
     const double now = trial.ballVelocity().norm();
-    kick.contact = kicker->busy && now > speed + kHit;
+    kick.contact = game.kicker->motion.busy && now > speed + kHit;
     speed = now;
     kick.fell = kick.fell || trial.down(0);
   }
   kick.time = trial.time();
   if (!kick.contact) return kick;
-  const Vector2 way = target - from;
-  follow(trial, from, Pose2(from, std::atan2(way.y(), way.x())), kick);
+  follow(trial, from, Pose2(from, directionOf(game.p_FTarget - from)), kick);
   return kick;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 
 #include "lab/common/parallel.h"
 
@@ -255,7 +256,7 @@ class Walker {
       case Kind::Stop:
         break;
       case Kind::Walk:
-        return motion::WalkTo{Pose2(p_RT, std::atan2(p_RT.y(), p_RT.x())), false, options_.set};
+        return motion::WalkTo{Pose2(p_RT, directionOf(p_RT)), false, options_.set};
       case Kind::Place:
         return motion::WalkTo{Pose2(p_RT, wrapAngle(heading - at.rotation)), true, options_.set};
       case Kind::Shift: {

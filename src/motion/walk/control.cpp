@@ -56,8 +56,11 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& wa
     blended_ = std::min(1.0, blended_ + world.body.cycleTime / time);
     active_ = blend(from_, sets_.of(set_), blended_);
   }
-  const bool walk = std::holds_alternative<WalkVelocity>(request) || std::holds_alternative<WalkTo>(request);
-  engine_.update(world.body, active_, speedFor(request), walk, targets);
+  WalkCommand command;
+  command.speed = speedFor(request);
+  command.walk = std::holds_alternative<WalkVelocity>(request) || std::holds_alternative<WalkTo>(request);
+  if (const auto* stand = std::get_if<Stand>(&request)) command.soon = stand->soon;
+  engine_.update(world.body, active_, command, targets);
 }
 
 // As seen from the walk frame, in which the torso turns to and fro.

@@ -30,16 +30,16 @@ void WalkEngine::reset() {
 model::JointArray WalkEngine::standAngles(const model::RobotModel& model, const WalkParameters& parameters) {
   WalkEngine engine(model);
   JointTargets targets;
-  engine.update(world::BodyState{}, parameters, Pose2{}, false, targets);
+  engine.update(world::BodyState{}, parameters, WalkCommand{}, targets);
   return targets.angles;
 }
 
-void WalkEngine::update(const world::BodyState& body, const WalkParameters& p, const Pose2& speed, bool walk,
+void WalkEngine::update(const world::BodyState& body, const WalkParameters& p, const WalkCommand& command,
                         JointTargets& targets) {
   const Tilt lastTilt = measurement_.tilt;
   measurement_.tilt = tiltAgainst(p.balance, {.pitch = body.pitch, .roll = body.roll}, body.gyro,
                                   wantedLean(p.posture, gait_.state()));
-  moveGait(p, body.cycleTime, speed, walk, lastTilt);
+  moveGait(p, body.cycleTime, command, lastTilt);
   footPoses(p, trace_.feet);
   trace_.reach = setLegs(*model_, trace_.feet, targets.angles);
   moveArms(p.posture, targets.angles);
@@ -47,12 +47,11 @@ void WalkEngine::update(const world::BodyState& body, const WalkParameters& p, c
   measureCom(body, p, targets.angles);
 }
 
-void WalkEngine::moveGait(const WalkParameters& p, double cycleTime, const Pose2& speed, bool walk,
+void WalkEngine::moveGait(const WalkParameters& p, double cycleTime, const WalkCommand& command,
                           const Tilt& lastTilt) {
   const Tilt& tilt = measurement_.tilt;
   gait_.update(p.gait, {.cycleTime = cycleTime,
-                        .speed = speed,
-                        .walk = walk,
+                        .command = command,
                         .stepShare = stepShare(p.balance, measurement_.comError),
                         .stumbles = stumbles(p.recovery, lastTilt),
                         .leans = leansTooFar(tilt),

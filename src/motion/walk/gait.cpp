@@ -13,7 +13,8 @@ namespace {
 constexpr double kStepTolerance = 5e-3;  // m
 constexpr double kTurnTolerance = 0.03;  // rad
 constexpr int kStepsBeforeStand = 2;     // in place, so that both feet have come home
-constexpr int kMostStepsInPlace = 25;    // then stand even with an error
+constexpr int kStepsBeforeSoon = 1;
+constexpr int kMostStepsInPlace = 25;  // then stand even with an error
 
 Pose2 scaled(const Pose2& pose, double factor) {
   return {pose.translation * factor, pose.rotation * factor};
@@ -82,7 +83,8 @@ double Gait::stepDuration(const GaitParameters& parameters) {
 // The proportional filter of [MacAlpine 2012b, walk engine], with a bound on the change.
 void Gait::updateStepSize(const GaitParameters& p, const GaitInput& input) {
   const double cycles = input.cycleTime / kCycleTime;
-  const Pose2 desired = withinLargest(p, input.walk ? scaled(input.speed, state_.stepDuration) : Pose2{});
+  const Pose2 desired =
+      withinLargest(p, input.command.walk ? scaled(input.command.speed, state_.stepDuration) : Pose2{});
   const auto change = [&](double value, double goal, double delta, double most) {
     const bool shrinks = value * (goal - value) < 0.0;
     const double factor = shrinks ? p.brake : 1.0;
@@ -93,7 +95,9 @@ void Gait::updateStepSize(const GaitParameters& p, const GaitInput& input) {
   way.x() = change(way.x(), desired.translation.x(), p.deltaStepX, p.maxChangeX);
   way.y() = change(way.y(), desired.translation.y(), p.deltaStepY, p.maxChangeY);
   turn = approach(turn, desired.rotation, shareAfter(cycles, p.deltaStepTheta), p.maxChangeTheta * cycles);
-  if (!input.walk && way.cwiseAbs().maxCoeff() < kStepTolerance && std::abs(turn) < kTurnTolerance) {
+  const double leastStep = input.command.soon ? p.stopStep : kStepTolerance;
+  const double leastTurn = input.command.soon ? p.stopTurn : kTurnTolerance;
+  if (!input.command.walk && way.cwiseAbs().maxCoeff() < leastStep && std::abs(turn) < leastTurn) {
     filteredStep_ = Pose2{};
   }
   const Vector2 before = state_.step.translation;
@@ -115,17 +119,20 @@ void Gait::updateAcceleration(const GaitParameters& p, const Vector2& stepChange
 
 void Gait::advancePhase(const GaitInput& input) {
   if (state_.standing) {
-    if (!input.walk && !input.leans) return;
+    if (!input.command.walk && !input.leans) return;
     // The first step is made by the foot on the side of the motion, or of the lean.
-    const double toLeft =
-        input.walk ? input.speed.translation.y() + 0.1 * input.speed.rotation : input.leanToLeft;
+    const double toLeft = input.command.walk
+                              ? input.command.speed.translation.y() + 0.1 * input.command.speed.rotation
+                              : input.leanToLeft;
     beginStep(toLeft >= 0.0 ? Side::Right : Side::Left);
     stepsDone_ = 0;
   } else if (state_.phase >= 1.0 - 1e-6) {
     ++stepsDone_;
-    const bool inPlace = !input.walk && filteredStep_.translation.isZero() && filteredStep_.rotation == 0.0;
+    const bool inPlace =
+        !input.command.walk && filteredStep_.translation.isZero() && filteredStep_.rotation == 0.0;
     stepsInPlace_ = inPlace ? stepsInPlace_ + 1 : 0;
-    if (stepsInPlace_ > kStepsBeforeStand && (input.calm || stepsInPlace_ > kMostStepsInPlace)) {
+    const int needed = input.command.soon ? kStepsBeforeSoon : kStepsBeforeStand;
+    if (stepsInPlace_ > needed && (input.calm || stepsInPlace_ > kMostStepsInPlace)) {
       state_.standing = true;
       state_.step = Pose2{};
       return;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "nonet/math/direction.h"
 #include "nonet/team/behaviors.h"
 
 namespace nonet::team {
@@ -14,7 +15,7 @@ std::optional<Action> goBehindBall(const Situation& s) {
   const bool around = play.behind < p.circleBehind * p.behindBall;
   if (around) next += (play.besides > 0.0 ? -1.0 : 1.0) * p.circleRadius * play.aside;
   const bool far = next.norm() > p.faceAway;
-  const double heading = far ? std::atan2(next.y(), next.x()) : play.direction;
+  const double heading = far ? directionOf(next) : play.direction;
   Action action(motion::WalkTo{Pose2(next, heading), false}, around ? "around" : "straight");
   action.reason.candidates = play.candidates;
   return action;

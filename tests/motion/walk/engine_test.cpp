@@ -24,7 +24,7 @@ class Walker {
 
   void step(const Pose2& speed, bool walk = true) {
     previous = targets.angles;
-    engine.update(body, parameters, speed, walk, targets);
+    engine.update(body, parameters, {.speed = speed, .walk = walk}, targets);
     body.joints = targets.angles;
     model::forwardKinematics(model, body.joints, body.bodies);
     body.p_RCom = model::centerOfMass(model, body.bodies);

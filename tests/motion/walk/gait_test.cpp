@@ -17,8 +17,8 @@ struct Walker {
   void step(const Pose2& speed, bool walk = true, double cycleTime = kCycleTime) {
     GaitInput input;
     input.cycleTime = cycleTime;
-    input.speed = speed;
-    input.walk = walk;
+    input.command.speed = speed;
+    input.command.walk = walk;
     step(input);
   }
   void step(const GaitInput& input) {
@@ -118,8 +118,8 @@ TEST(Gait, BalanceTakesItsShareOfTheStep) {
     const double full = walker.stepSize().translation.x();
     GaitInput input;
     input.cycleTime = kCycleTime;
-    input.speed = Pose2(0.5, 0.0, 0.0);
-    input.walk = true;
+    input.command.speed = Pose2(0.5, 0.0, 0.0);
+    input.command.walk = true;
     input.stepShare = 0.25;
     input.stumbles = stumbles;
     walker.step(input);

@@ -180,6 +180,9 @@ Vector2 landingShift(const BalanceParameters& parameters, const Tilt& tilt);
 /// What was commanded in the last cycles, since its measurement comes late.
 class CommandHistory {
  public:
+  static constexpr std::size_t kDelay =
+      2;  // cycles from a command to its measurement (server facts 1.2, 1.5)
+
   struct Command {
     Vector3 p_SCom = Vector3::Zero();  // centre of mass over the stance foot, m, upright axes
     model::Side stance = model::Side::Left;
@@ -192,7 +195,6 @@ class CommandHistory {
   void reset() { size_ = 0; }
 
  private:
-  static constexpr std::size_t kDelay = 2;  // cycles from the last command to its measurement
   static constexpr std::size_t kMost = kDelay + 1;
   std::array<Command, kMost> commands_{};
   std::size_t size_ = 0;

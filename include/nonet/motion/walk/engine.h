@@ -26,10 +26,9 @@ class WalkEngine {
  public:
   explicit WalkEngine(const model::RobotModel& model);
 
-  /// One cycle. `speed` in m/s, m/s, rad/s is the wish; the engine shrinks it to what the set allows. `walk`
-  /// false: come to a stand. The set may change in every cycle, at any moment of a step; jumps between sets
-  /// are taken out by the caller (blend).
-  void update(const world::BodyState& body, const WalkParameters& parameters, const Pose2& speed, bool walk,
+  /// One cycle. The set may change in every cycle, at any moment of a step; jumps between sets are taken out
+  /// by the caller (blend).
+  void update(const world::BodyState& body, const WalkParameters& parameters, const WalkCommand& command,
               JointTargets& targets);
 
   /// The joint angles of its stand (head joints 0).
@@ -45,7 +44,7 @@ class WalkEngine {
   const Pose2& odometryStep() const { return gait_.odometryStep(); }
 
  private:
-  void moveGait(const WalkParameters& parameters, double cycleTime, const Pose2& speed, bool walk,
+  void moveGait(const WalkParameters& parameters, double cycleTime, const WalkCommand& command,
                 const Tilt& lastTilt);
   void footPoses(const WalkParameters& parameters, FootPoses& feet) const;
   void moveArms(const WalkPostureParameters& parameters, model::JointArray& angles) const;

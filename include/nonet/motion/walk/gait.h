@@ -29,6 +29,8 @@ struct GaitParameters {
   double maxChangeY = 0.004;
   double maxChangeTheta = 0.03;
   double brake = 1.0;
+  double stopStep = 0.025;
+  double stopTurn = 0.12;
   double accelerationFilter = 0.3;
   double stepDuration = 0.12;
   double footSeparation = 0.11;
@@ -123,6 +125,18 @@ struct GaitParameters {
            search(0.3, 1.5),
            "Factor on deltaStepX, deltaStepY, maxChangeX and maxChangeY while the step shrinks"},
           self.brake);
+    visit({"stopStep",
+           Unit::Metre,
+           {0.0, 0.3},
+           search(0.005, 0.04),
+           "Coming to a stand soon: a step smaller than this is the last"},
+          self.stopStep);
+    visit({"stopTurn",
+           Unit::Radian,
+           {0.0, 1.5},
+           search(0.03, 0.3),
+           "Coming to a stand soon: likewise its turn"},
+          self.stopTurn);
     visit({"accelerationFilter",
            Unit::None,
            {0.01, 1.0},
@@ -256,10 +270,16 @@ struct GaitState {
   Vector2 acceleration = Vector2::Zero();  // as commanded, filtered, m/s^2
 };
 
+/// What the robot is to do.
+struct WalkCommand {
+  Pose2 speed;        // m/s, m/s, rad/s; the gait shrinks it to what the set allows
+  bool walk = false;  // false: come to a stand
+  bool soon = false;  // out of small steps earlier than else
+};
+
 struct GaitInput {
-  double cycleTime = 0.0;   // s
-  Pose2 speed;              // wanted, m/s, m/s, rad/s
-  bool walk = false;        // false: come to a stand
+  double cycleTime = 0.0;  // s
+  WalkCommand command;
   double stepShare = 1.0;   // what balance allows of the step
   bool stumbles = false;    // recovery acts: speed up anew afterwards
   bool leans = false;       // too far to stand

@@ -1,0 +1,127 @@
+// swing_NAME: the kick kick_NAME from the moment it begins (swing_trial.h). For finding a kick's numbers
+// before kick_NAME polishes them with the approach. The fitness is the distance towards the target less what
+// goes aside, 1.2 m for every second until contact and what the robot leans afterwards, less half the spread
+// over the starts; -1 for a fall, a miss or a ball that leaves by more than ten degrees.
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "nonet/agent/agent_setup.h"
+#include "nonet/lab/trial/swing_trial.h"
+#include "nonet/math/angle.h"
+#include "nonet/math/random.h"
+
+#include "lab/tasks/tasks.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr int kStarts = 60;         // that are stored
+constexpr int kSwings = 6;          // a trial
+constexpr double kPenalty = -1.0;   // m
+constexpr double kPerSecond = 1.2;  // m/s
+constexpr double kStraight = toRadians(10.0);
+constexpr double kLeans = 0.3;       // rad, free
+constexpr double kPerLean = 2.0;     // m/rad
+constexpr double kSpread = 0.5;      // share of the standard deviation
+constexpr double kRolling = 0.3;     // m/s
+constexpr std::uint64_t kSeed = 26;  // of the starts
+
+using Starts = std::vector<KickStart>;
+
+// How robots begin this kick with the values that the data folder has for it.
+Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
+  agent::AgentChoice choice;
+  choice.robotType = settings.robotType;
+  const agent::AgentConfig agent = agent::makeAgentConfig(choice, settings.dataFolder);
+  Starts starts;
+  const Random seeds(kSeed);
+  for (int i = 0; i < kStarts; ++i) {
+    KickScene scene;
+    scene.kick = kick;
+    scene.bearing = kickBearing(i);
+    scene.rolling = i % 2 == 0 ? 0.0 : kRolling;
+    const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
+    if (auto start = kickStart(agent, sim::Settings{}, scene, seed)) starts.push_back(std::move(*start));
+  }
+  if (starts.empty()) throw std::runtime_error(fmt::format("no robot of this type comes to {}", kick));
+  return starts;
+}
+
+double gained(const Swing& swing) {
+  const Kick& kick = swing.kick;
+  if (kick.fell || kick.missed() || std::abs(kick.direction()) > kStraight) return kPenalty;
+  return kick.forward - std::abs(kick.aside) - kPerSecond * kick.time -
+         kPerLean * std::max(0.0, swing.lean - kLeans);
+}
+
+class SwingTask final : public Task {
+ public:
+  explicit SwingTask(const std::string& name) : name_("swing_" + name), kick_("kick_" + name) {}
+
+  std::string_view name() const override { return name_; }
+  std::string_view description() const override {
+    return "a kick from the moment it begins: far, straight and without a fall";
+  }
+  std::vector<std::string> searchedKeys() const override { return {"motion.skills." + kick_ + "."}; }
+
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override {
+    agent::AgentConfig agent;
+    agent.robotType = settings.robotType;
+    agent.parameters = parameters;
+    agent.skillFolder = settings.dataFolder + "/skills";
+    SwingTrial trial(agent, kick_, settings.quickSolver);
+    const Starts& starts = startsOf(settings);
+    Random random = Random(seed).fork(7);
+    double sum = 0.0, squares = 0.0, distance = 0.0, speed = 0.0, falls = 0.0, failures = 0.0;
+    for (int i = 0; i < kSwings; ++i) {
+      const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(starts.size()));
+      const Swing swing = trial.run(starts[std::min(chosen, starts.size() - 1)]);
+      const double value = gained(swing);
+      sum += value / kSwings;
+      squares += value * value / kSwings;
+      distance += swing.kick.forward / kSwings;
+      speed += swing.kick.ballSpeed / kSwings;
+      falls += swing.kick.fell ? 1.0 : 0.0;
+      failures += value == kPenalty ? 1.0 / kSwings : 0.0;
+    }
+    TaskResult result;
+    result.fitness = sum - kSpread * std::sqrt(std::max(0.0, squares - sum * sum));
+    result.measures = {
+        {"distance_m", distance}, {"speed_mps", speed}, {"falls", falls}, {"failures", failures}};
+    return result;
+  }
+
+ private:
+  const Starts& startsOf(const TaskSettings& settings) const {
+    const std::lock_guard lock(mutex_);
+    const auto key = std::make_tuple(settings.robotType, settings.dataFolder);
+    const auto found = starts_.find(key);
+    if (found != starts_.end()) return found->second;
+    return starts_.emplace(key, makeStarts(kick_, settings)).first->second;
+  }
+
+  std::string name_;
+  std::string kick_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::tuple<int, std::string>, Starts> starts_;
+};
+
+}  // namespace
+
+const Task& swingTask(std::string_view name) {
+  static std::mutex mutex;
+  static std::map<std::string, SwingTask, std::less<>> tasks;
+  const std::lock_guard lock(mutex);
+  const auto found = tasks.find(name);
+  if (found != tasks.end()) return found->second;
+  return tasks.try_emplace(std::string(name), std::string(name)).first->second;
+}
+
+}  // namespace nonet::lab

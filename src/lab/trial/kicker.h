@@ -1,0 +1,39 @@
+// A robot that only wants to kick: the team's own behaviours but for dribbling, on the situation of a kick
+// trial.
+#pragma once
+
+#include <string>
+
+#include "nonet/lab/trial/game_trial.h"
+#include "nonet/lab/trial/kick_trial.h"
+#include "nonet/math/random.h"
+#include "nonet/motion/motion_state.h"
+#include "nonet/team/parameters.h"
+#include "nonet/team/situation.h"
+
+namespace nonet::lab {
+
+/// Plays the ball to a place with the kick of that name; empty: motion chooses.
+class Kicker {
+ public:
+  Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick);
+
+  team::Action operator()(const world::WorldState& world, const motion::MotionState& motion);
+
+  motion::MotionState motion;  // what motion did in the last cycle
+
+ private:
+  team::TeamParameters parameters_;
+  Vector2 p_FTarget_;
+  InlineString<32> kick_;
+};
+
+/// A robot, a ball and where it should go. The kicker belongs to the situation's only player.
+struct KickGame {
+  GameSituation situation;
+  Vector2 p_FTarget = Vector2::Zero();
+  std::shared_ptr<Kicker> kicker;
+};
+KickGame kickGame(const agent::AgentConfig& agent, const KickScene& scene, Random& random);
+
+}  // namespace nonet::lab

@@ -1,0 +1,179 @@
+#include "nonet/lab/trial/swing_trial.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "nonet/lab/trial/game_trial.h"
+#include "nonet/lab/trial/true_pose.h"
+#include "nonet/math/direction.h"
+#include "nonet/math/random.h"
+#include "nonet/motion/kick_catalogue.h"
+#include "nonet/motion/skill_player.h"
+#include "nonet/motion/walk/engine.h"
+#include "nonet/world/ball_law.h"
+
+#include "lab/trial/kicker.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr double kHit = 0.7;     // m/s that a kick adds at least to the ball's speed in a cycle
+constexpr double kStands = 0.8;  // s after the kick's end that the robot must stand
+
+const motion::KickOption* optionOf(const motion::KickCatalogue& catalogue, std::string_view kick,
+                                   model::Side foot) {
+  for (const motion::KickOption& option : catalogue.options())
+    if (option.name == kick && option.foot == foot) return &option;
+  return nullptr;
+}
+
+sim::WorldSettings worldOf(bool quickSolver) {
+  sim::WorldSettings settings;
+  settings.solver = quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
+  return settings;
+}
+
+}  // namespace
+
+std::optional<KickStart> kickStart(const agent::AgentConfig& agent, const sim::Settings& settings,
+                                   const KickScene& scene, std::uint64_t seed) {
+  Random random(seed);
+  const KickGame game = kickGame(agent, scene, random);
+  GameTrial trial(settings, game.situation, random.next());
+  // Motion tells a cycle later that it has begun: then the world is wanted as it was before that cycle.
+  std::array<std::vector<std::uint8_t>, 2> worlds;
+  while (trial.time() < scene.longest) {
+    std::swap(worlds[0], worlds[1]);
+    const motion::MotionState& motion = game.kicker->motion;
+    if (motion.askedForKick()) worlds[1] = trial.simulation().world().save();
+    trial.step();
+    if (!motion.busy) continue;
+    for (const motion::KickOption& option : motion.kicks)
+      if (option.name == motion.kick && option.foot == motion.kickFoot)
+        return KickStart{worlds[0], motion.kickFoot, motion.kickBall, option.head.p_RBall};
+  }
+  return std::nullopt;
+}
+
+struct SwingTrial::Implementation {
+  Implementation(const agent::AgentConfig& agent, const std::string& name, bool quickSolver)
+      : kick(name),
+        model(model::robotModel(agent.robotType)),
+        library(agent.skillFolder, agent.parameters.motion.skills),
+        catalogue(library, agent.robotType),
+        stand(motion::WalkEngine::standAngles(
+            model, agent.parameters.motion.sets.of(agent.parameters.motion.selection.standSet()))),
+        margin(agent.parameters.motion.control.stopMargin),
+        player(model, library, stand),
+        world(worldOf(quickSolver)) {
+    if (optionOf(catalogue, kick, model::Side::Left) == nullptr)
+      throw std::runtime_error(fmt::format("type {} has no kick '{}'", agent.robotType, kick));
+  }
+
+  // Joints take any speed within one step, so a target is reached at once if the speed allows
+  // (joint_control.h).
+  void moveJoints() {
+    for (const model::JointSpec& joint : model.joints()) {
+      const double target =
+          std::clamp(targets.angles[model::index(joint.id)], joint.low + margin, joint.high - margin);
+      const double angle = world.jointAngle(robot, joint.id);
+      world.setJointSpeed(robot, joint.id, static_cast<float>((target - angle) / kCycleTime));
+    }
+  }
+
+  void step() {
+    moveJoints();
+    world.prePhysics();
+    world.stepPhysics();
+  }
+
+  world::BallMotion ball() const {
+    return {world.ballPosition().cast<double>(), world.ballVelocity().cast<double>()};
+  }
+
+  void begin(const KickStart& start) {
+    world.restore(start.world);
+    robot = world.robots().front();
+    const motion::KickOption& option = *optionOf(catalogue, kick, start.foot);
+    const Vector2 moved = option.head.p_RBall - start.p_RPlace;
+    X_WR = truePose(world, robot);
+    sim::Vector3f place = world.ballPosition();
+    place.head<2>() += X_WR.rotate(moved).cast<float>();
+    world.setBallPosition(place);
+    body.cycleTime = kCycleTime;
+    for (const model::JointSpec& joint : model.joints())
+      body.joints[model::index(joint.id)] = world.jointAngle(robot, joint.id);
+    targets = {};
+    targets.angles = body.joints;
+    direction = X_WR.rotation + option.head.direction;
+    state.body = body;
+    player.start(kick, start.foot == model::Side::Right, targets.angles, start.p_RBall + moved);
+  }
+
+  Swing run(const KickStart& start) {
+    begin(start);
+    Swing swing;
+    Kick& result = swing.kick;
+    double time = 0.0;
+    double over = 0.0;  // s since the end of the skill
+    Vector2 from = ball().p_FB.head<2>();
+    const Pose2 aim(from, direction);
+    while (over < kStands && !result.fell) {
+      if (player.running()) player.update(state, targets);
+      over += player.running() ? 0.0 : kCycleTime;
+      const double before = ball().v_FB.norm();
+      step();
+      time += kCycleTime;
+      const world::BallMotion now = ball();
+      if (!result.contact && now.v_FB.norm() > before + kHit) {
+        result.contact = true;
+        result.time = time;
+      }
+      result.ballSpeed = std::max(result.ballSpeed, now.v_FB.norm());
+      if (result.height == 0.0 && (now.p_FB.head<2>() - from).norm() > 1.0) result.height = now.p_FB.z();
+      if (result.contact) swing.lean = std::max(swing.lean, trueTilt(world, robot));
+      result.fell = isDown(world, robot);
+    }
+    const Vector2 way = aim.inverse() * restPlace();
+    result.forward = way.x();
+    result.aside = way.y();
+    return swing;
+  }
+
+  // A flying ball must be followed to the ground; the rest of a roll is certain.
+  Vector2 restPlace() {
+    world::BallMotion rest = ball();
+    while (world::isFlying(rest)) world::stepBall(rest, kCycleTime);
+    return world::restPlace(rest);
+  }
+
+  std::string kick;
+  const model::RobotModel& model;
+  motion::SkillLibrary library;
+  motion::KickCatalogue catalogue;
+  model::JointArray stand;
+  double margin;  // rad that targets keep from the stops
+  motion::SkillPlayer player;
+  sim::World world;
+  sim::RobotHandle robot = sim::kNoRobot;
+  world::BodyState body;
+  world::WorldState state;
+  motion::JointTargets targets;
+  Pose2 X_WR;              // when the kick began
+  double direction = 0.0;  // world, rad: where the ball should go
+};
+
+SwingTrial::SwingTrial(const agent::AgentConfig& agent, const std::string& kick, bool quickSolver)
+    : implementation_(std::make_unique<Implementation>(agent, kick, quickSolver)) {}
+SwingTrial::~SwingTrial() = default;
+
+Swing SwingTrial::run(const KickStart& start) {
+  return implementation_->run(start);
+}
+
+}  // namespace nonet::lab
