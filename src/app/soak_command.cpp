@@ -158,6 +158,8 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
           "So many minutes of random commands in one process instead, the physics watched in every cycle")
       ->excludes(harm)
       ->check(CLI::PositiveNumber);
+  command->add_flag("!--no-beams", arguments->effectors.beams,
+                    "With --effectors: nothing that puts robots into each other; the bounds are narrow then");
   command->add_option("--seed", arguments->seed, "Decides everything that is drawn")->capture_default_str();
   command
       ->add_option("--players", arguments->players,

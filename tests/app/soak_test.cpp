@@ -65,6 +65,17 @@ TEST(SoakMemory, TheSlopeIsThatOfTheLine) {
   EXPECT_EQ(slopeOf({1, 1, 1}, {1, 2, 3}), 0.0);
   EXPECT_GT(residentMemory(::getpid()), 1.0);
   EXPECT_EQ(residentMemory(-1), 0.0);
+  MemoryWatch watch;
+  for (double time = 0.0; time < kShortestWatch; time += 10.0) watch.look(time, ::getpid());
+  EXPECT_FALSE(watch.growth().perHour) << "too short";
+  EXPECT_GT(watch.growth().megabytes, 1.0);
+  std::vector<std::string> grown;
+  for (double time = kShortestWatch; time <= 2.0 * kShortestWatch; time += 10.0) {
+    grown.emplace_back(1 << 20, 'x');
+    watch.look(time, ::getpid());
+  }
+  // A megabyte every ten seconds.
+  EXPECT_NEAR(watch.growth().perHour.value_or(0.0), 360.0, 100.0);
 }
 
 // The second call finds the first match and plays only the rest.

@@ -49,7 +49,7 @@ constexpr Target kTargets[] = {
     {"skill", checkSkillText, 5000},
     {"parameters", checkParameterText, 300},
     {"monitor", checkMonitorStream, 5000},
-    {"trainer", checkTrainer, 1000},
+    {"trainer", checkTrainer, 500},
 };
 
 std::vector<std::string> corpusOf(const std::string& name) {

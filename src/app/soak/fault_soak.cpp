@@ -223,6 +223,7 @@ class FaultSoak {
     std::string trouble;
     watch_->longestSilence();
     const std::size_t connectedTo = server_;
+    departuresBefore_ = watch_->departures(fellow.player);
     (this->*what.action)(fellow, trouble);
     const Clock::time_point begin = Clock::now();
     const bool back = awaitAll(options_.patience);
@@ -244,10 +245,10 @@ class FaultSoak {
     }
   }
 
-  /// The robot of one whose connection has ended goes within a second.
+  /// The robot of one whose connection has ended goes within a second, be it that the next one comes at once.
   void awaitGone(const Fellow& fellow, std::string& trouble) {
     for (int i = 0; i < 100; ++i) {
-      if (!watch_->players().contains(fellow.player)) return;
+      if (watch_->departures(fellow.player) > departuresBefore_) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     trouble = fellow.name() + " stayed on the field";
@@ -326,6 +327,7 @@ class FaultSoak {
   int monitorPort_ = 0;
   int servers_ = 0;
   int starts_ = 0;
+  int departuresBefore_ = 0;  // of the one who is harmed
   AgentProcesses processes_;
   std::size_t server_ = 0;
   std::optional<MonitorWatch> watch_;

@@ -141,9 +141,9 @@ class MatchSoak {
 
   static void addMemory(Json& line, const MemoryGrowth& server, const MemoryGrowth& agents) {
     line["most_server_mb"] = server.megabytes;
-    line["most_server_mb_per_hour"] = server.perHour;
+    if (server.perHour) line["most_server_mb_per_hour"] = *server.perHour;
     line["most_agent_mb"] = agents.megabytes;
-    line["most_agent_mb_per_hour"] = agents.perHour;
+    if (agents.perHour) line["most_agent_mb_per_hour"] = *agents.perHour;
   }
 
   void watch(const SoakMatch& match, double time, pid_t server, MemoryWatch& ofServer,

@@ -36,16 +36,17 @@ MemoryGrowth MemoryWatch::growth() const {
   MemoryGrowth growth;
   for (const auto& [pid, samples] : samples_) {
     const double begin = samples.front().time;
-    const double settled = begin + (samples.back().time - begin) / 3.0;
+    growth.megabytes = std::max(growth.megabytes, samples.back().megabytes);
+    const double watched = samples.back().time - begin;
+    if (watched < kShortestWatch) continue;
     std::vector<double> times;
     std::vector<double> sizes;
     for (const Sample& sample : samples) {
-      if (sample.time < settled) continue;
+      if (sample.time < begin + 0.5 * watched) continue;
       times.push_back(sample.time / 3600.0);
       sizes.push_back(sample.megabytes);
     }
-    growth.megabytes = std::max(growth.megabytes, samples.back().megabytes);
-    growth.perHour = std::max(growth.perHour, slopeOf(times, sizes));
+    growth.perHour = std::max(growth.perHour.value_or(slopeOf(times, sizes)), slopeOf(times, sizes));
   }
   return growth;
 }

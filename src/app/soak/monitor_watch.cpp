@@ -57,17 +57,31 @@ void MonitorWatch::follow(int socket) {
     const ssize_t count = ::recv(socket, room.data(), room.size(), 0);
     if (count <= 0) return;
     frames.received(static_cast<std::size_t>(count));
-    while (const auto message = frames.next()) reader.feed(*message);
-    std::set<Player> players;
-    for (const protocol::MonitorRobot& robot : reader.robots()) {
-      if (robot.unum > 0) players.emplace(robot.side, robot.unum);
+    while (const auto message = frames.next()) {
+      if (reader.feed(*message)) note(reader);
     }
-    const std::lock_guard lock(mutex_);
-    const Clock::time_point now = Clock::now();
-    longest_ = std::max(longest_, std::chrono::duration<double>(now - last_).count());
-    last_ = now;
-    players_ = std::move(players);
   }
+}
+
+void MonitorWatch::note(const protocol::MonitorReader& reader) {
+  std::set<Player> players;
+  for (const protocol::MonitorRobot& robot : reader.robots()) {
+    if (robot.unum > 0) players.emplace(robot.side, robot.unum);
+  }
+  const std::lock_guard lock(mutex_);
+  for (const Player& player : players_) {
+    if (!players.contains(player)) ++departures_[player];
+  }
+  const Clock::time_point now = Clock::now();
+  longest_ = std::max(longest_, std::chrono::duration<double>(now - last_).count());
+  last_ = now;
+  players_ = std::move(players);
+}
+
+int MonitorWatch::departures(const Player& player) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = departures_.find(player);
+  return found == departures_.end() ? 0 : found->second;
 }
 
 }  // namespace nonet::app

@@ -39,21 +39,26 @@ double absurdNumber(Random& random) {
   return kNumbers[random.below(kNumbers.size())];
 }
 
-/// Robots are beamed and born into each other here, and thrown apart; robots press each other's legs over the
-/// stops. What the recordings of matches have seen at most is no law for that, but there are bounds all the
-/// same.
-sim::InvariantLimits limits() {
+/// Robots that press each other's legs come somewhat farther over the stops than the recordings of matches
+/// have seen. Those that are beamed into each other are thrown apart: then nothing is left but that all stays
+/// finite and near.
+sim::InvariantLimits limits(bool beams) {
   sim::InvariantLimits limits;
-  limits.overshoot = kPi;
-  limits.lowestCentre = -0.5;
-  limits.fastestBody = 60.0;
+  limits.overshoot = beams ? 2.0 * kPi : 0.6;
+  limits.lowestCentre = beams ? -1.0 : -0.1;
+  if (!beams) return limits;
+  limits.highestCentre = 100.0;
+  limits.fastestBody = 1000.0;
   return limits;
 }
 
 class RandomTeams {
  public:
   explicit RandomTeams(const RandomEffectorsChoice& choice)
-      : random_(choice.seed), simulation_(settings(choice), choice.seed) {
+      : random_(choice.seed),
+        simulation_(settings(choice), choice.seed),
+        beams_(choice.beams),
+        invariants_(limits(choice.beams)) {
     for (int unum = 1; unum <= choice.players; ++unum) {
       for (const bool right : {false, true}) {
         Player player;
@@ -144,7 +149,7 @@ class RandomTeams {
   }
 
   void speak(Effectors& effectors) {
-    if (random_.below(20) == 0) {
+    if (beams_ && random_.below(20) == 0) {
       const bool absurd = random_.below(4) == 0;
       const double x = absurd ? absurdNumber(random_) : random_.uniform(-16.0, 16.0);
       const double y = absurd ? absurdNumber(random_) : random_.uniform(-11.0, 11.0);
@@ -157,7 +162,8 @@ class RandomTeams {
     }
     effectors.pass = random_.below(50) == 0;
     effectors.syn = random_.below(2) == 0;
-    if (random_.below(200) == 0) effectors.scene.emplace().robotType = static_cast<int>(random_.below(5));
+    if (beams_ && random_.below(200) == 0)
+      effectors.scene.emplace().robotType = static_cast<int>(random_.below(5));
     if (random_.below(200) == 0) {
       protocol::InitEffector& init = effectors.init.emplace();
       init.unum = static_cast<int>(random_.below(13));
@@ -179,7 +185,8 @@ class RandomTeams {
 
   Random random_;
   sim::Simulation simulation_;
-  sim::Invariants invariants_{limits()};
+  bool beams_;
+  sim::Invariants invariants_;
   std::vector<Player> players_;
   RandomEffectorsResult result_;
   std::string text_;

@@ -140,12 +140,13 @@ Trainer::Outcome Trainer::execute(std::string_view message) {
 }
 
 Player* Trainer::named(const Command& command, bool& specified) {
-  const auto unum = wholeNumber(command.number("unum"));
+  const auto number = command.number("unum");
+  const std::optional<int> unum = wholeNumber(number);
   const Command::List* team = command.list("team");
-  specified = unum.has_value() && team != nullptr && !team->values.empty();
+  specified = number.has_value() && team != nullptr && !team->values.empty();
   const TeamSide side = specified ? sideFromWord(team->values[0]) : TeamSide::None;
   for (Player& player : players_) {
-    if (specified ? player.unum == *unum && player.side == side : player.selected) return &player;
+    if (specified ? unum == player.unum && player.side == side : player.selected) return &player;
   }
   return nullptr;
 }
@@ -199,11 +200,11 @@ void Trainer::kickOffCommand(const Command& command) {
 }
 
 void Trainer::selectCommand(const Command& command) {
-  const auto unum = wholeNumber(command.number("unum"));
+  const auto unum = command.number("unum");
   const auto unselectAll = [this] {
     for (Player& player : players_) player.selected = false;
   };
-  if (unum == -1) return unselectAll();
+  if (wholeNumber(unum) == -1) return unselectAll();
   const Command::List* team = command.list("team");
   if (!unum || team == nullptr || team->values.empty()) return selectNext();
   bool specified = false;

@@ -95,7 +95,7 @@ struct Server::Implementation {
   long cyclesAfterEnd = 0;
   AgentHandle newborn = kNoAgent;  // whose robot was built last
   long bornAt = 0;                 // cycle
-  std::string text;  // reused
+  std::string text;                // reused
 };
 
 }  // namespace nonet::sim

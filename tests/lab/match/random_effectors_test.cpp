@@ -10,6 +10,7 @@ TEST(RandomEffectors, NothingWellFormedBreaksThePhysics) {
   for (const std::uint64_t seed : {1U, 2U}) {
     RandomEffectorsChoice choice;
     choice.seed = seed;
+    choice.beams = seed == 1U;
     choice.players = 3;
     choice.minutes = 0.4;
     const RandomEffectorsResult result = playRandomEffectors(choice);

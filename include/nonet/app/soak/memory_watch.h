@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <sys/types.h>
@@ -16,8 +17,11 @@ std::vector<pid_t> childrenOf(pid_t parent);
 
 struct MemoryGrowth {
   double megabytes = 0.0;  // at the last look, the largest of all processes
-  double perHour = 0.0;    // MB, least squares over the later two thirds: the fastest of all processes
+  std::optional<double>
+      perHour;  // MB, least squares over the later half: the fastest of all processes. Absent for
+                // less than kShortestWatch, which tells only how pages are touched for the first time
 };
+inline constexpr double kShortestWatch = 120.0;  // s
 
 /// Memory of a few processes, looked at now and then. What a program takes at its start is no growth.
 class MemoryWatch {
