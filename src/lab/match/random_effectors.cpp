@@ -128,7 +128,7 @@ class RandomTeams {
     player.manner = static_cast<Manner>(random_.below(kManners));
     if (player.away || !simulation_.isConnected(player.handle)) {
       enter(player);
-    } else if (random_.below(60) == 0) {
+    } else if (beams_ && random_.below(60) == 0) {
       simulation_.disconnect(player.handle);
       player.away = true;
     }

@@ -17,7 +17,7 @@ struct RandomEffectorsChoice {
   std::uint64_t seed = 1;
   int players = 4;       // a side, 1..11
   double minutes = 1.0;  // of the server's time
-  bool beams = true;     // also beams and second robots, which puts robots into each other
+  bool beams = true;     // also beams, robots that come and go: it puts them into each other
   int threads = 1;       // of the physics; the result does not depend on it
 };
 
