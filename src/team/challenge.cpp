@@ -43,7 +43,7 @@ std::string_view challengeName(Challenge challenge) {
 }
 
 std::optional<Action> ChallengePlayer::update(const Situation& situation) {
-  if (situation.waitsForKickOff()) start_.reset();
+  if (situation.waitsForKickOff()) *this = ChallengePlayer(challenge_);
   if (!situation.free()) return std::nullopt;
   std::optional<Action> action;
   if (challenge_ == Challenge::Run) action = run(situation);
@@ -65,15 +65,16 @@ Action ChallengePlayer::run(const Situation& s) {
   motion::WalkTo walk;
   walk.target = X_FR.inverse() * ahead;
   walk.stopAtTarget = false;
-  walk.set = motion::WalkSet::Sprint;
   return {walk, "run"};
 }
 
 std::optional<Action> ChallengePlayer::kickToCentre(const Situation& s) {
   if (!s.acts()) return std::nullopt;
   const ChallengeParameters& p = s.parameters.challenge;
-  if (!start_) start_ = s.ball();
-  if ((s.ball() - *start_).norm() > p.kicked) return Action(motion::Stand{}, "kicked");
+  near_ = near_ || s.world.ball.p_RB.norm() < p.near;
+  if (!start_ || !near_) start_ = s.ball();
+  kicked_ = kicked_ || (s.ball() - *start_).norm() > p.kicked;
+  if (kicked_) return Action(motion::Stand{}, "kicked");
   Situation own = s;
   own.play = playTowards(s, Vector2::Zero(), KickUse::Clear);
   for (const auto& behavior : {goToBall, kick, goBehindBall}) {

@@ -34,6 +34,8 @@ class ChallengePlayer {
 
   Challenge challenge_;
   std::optional<Vector2> start_;  // place at the begin (run) or of the ball (kick), own field frame, m
+  bool near_ = false;             // kick: has been at the ball
+  bool kicked_ = false;
 };
 
 }  // namespace nonet::team

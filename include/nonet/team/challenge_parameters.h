@@ -10,6 +10,7 @@ struct ChallengeParameters {
   double runOut = 0.7;
   double blindSpeed = 0.6;
   double kicked = 0.5;
+  double near = 0.7;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -30,6 +31,13 @@ struct ChallengeParameters {
            fixed,
            "Kick: a ball that is so far from its place has been kicked"},
           self.kicked);
+    visit({"near",
+           Unit::Metre,
+           {0.1, 5},
+           fixed,
+           "Kick: before the robot has been so near to the ball, the ball is somewhere else because somebody "
+           "placed it there"},
+          self.near);
   }
 };
 
