@@ -6,7 +6,7 @@ namespace nonet::agent {
 
 struct Agent::Stages {
   explicit Stages(const AgentConfig& agentConfig)
-      : config(agentConfig), robot(robotConfig(config)), behavior(config.parameters.team) {}
+      : config(agentConfig), robot(robotConfig(config)), behavior(config.parameters.team, config.challenge) {}
 
   AgentConfig config;
   Robot robot;

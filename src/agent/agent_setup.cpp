@@ -13,6 +13,7 @@
 namespace nonet::agent {
 namespace {
 
+constexpr const char* kChallengeOption = "challenge";
 constexpr std::string_view kStartMark = "start ";  // x, y in m, heading in rad, own field frame
 
 // Without its data an agent would play on, crippled: without kicks and rises, at half the speed.
@@ -40,6 +41,7 @@ AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFo
   config.skillFolder = skillFolderIn(dataFolder);
   config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
   config.startPose = choice.startPose;
+  config.challenge = choice.challenge;
   if (choice.learned) {
     config::overlayFile(config.parameters, learnedFileIn(dataFolder, choice.robotType));
   }
@@ -56,6 +58,8 @@ protocol::LogHeader logHeader(const AgentConfig& config, const std::string& vers
   header.robotType = config.robotType;
   header.seed = config.seed;
   header.parameters = config::toToml(config.parameters);
+  if (config.challenge != team::Challenge::None)
+    header.options[kChallengeOption] = team::challengeName(config.challenge);
   return header;
 }
 
@@ -70,6 +74,8 @@ AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& d
   config.team = header.team;
   config.robotType = header.robotType;
   config.seed = header.seed;
+  if (const auto option = header.options.find(kChallengeOption); option != header.options.end())
+    config.challenge = team::challengeFromName(option->second).value_or(team::Challenge::None);
   config.skillFolder = skillFolderIn(dataFolder);
   config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
   config::overlayText(config.parameters, header.parameters, path + ": parameters in the header");
@@ -85,6 +91,9 @@ std::optional<Pose2> startFromComment(std::string_view comment) {
   if (!comment.starts_with(kStartMark)) return std::nullopt;
   const auto values = nlohmann::json::parse(comment.substr(kStartMark.size()), nullptr, false);
   if (!values.is_array() || values.size() != 3) return std::nullopt;
+  for (const auto& value : values) {
+    if (!value.is_number()) return std::nullopt;
+  }
   return Pose2(values[0].get<double>(), values[1].get<double>(), values[2].get<double>());
 }
 

@@ -37,6 +37,7 @@ void AgentProcesses::start(const std::vector<std::string>& command, const std::s
       ::dup2(out, STDOUT_FILENO);
       ::dup2(out, STDERR_FILENO);
     }
+    ::close_range(STDERR_FILENO + 1, ~0U, 0);  // sockets that are closed here are not to live on there
     ::setpgid(0, 0);  // Ctrl-C in the terminal is for the match, which then stops its agents
     ::execv(arguments[0], arguments.data());
     ::_exit(127);

@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   nonet::app::addRiseReportCommand(app, exitCode);
   nonet::app::addKickReportCommand(app, exitCode);
   nonet::app::addParamsCommand(app, exitCode);
+  nonet::app::addSoakCommand(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') checkCommand(app, argv[1]);
   try {
     app.parse(argc, argv);

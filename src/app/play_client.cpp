@@ -5,8 +5,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
@@ -43,9 +45,11 @@ constexpr double kSilenceBeforeReconnect = 4.0;  // s, doubled each time
 constexpr double kTurnInterval = 0.02;        // s between two looks
 constexpr double kTurnPatience = 6.0;         // s
 constexpr double kTurnPatiencePerUnum = 0.4;  // s
-constexpr double kTurnAfterInit = 0.5;    // s; a server that collects whole teams first accepts nobody before
-constexpr double kFirstPause = 0.1;       // s between two attempts to connect, grows by half each time
-constexpr double kLongestPause = 2.0;     // s
+constexpr double kTurnAfterInit = 0.5;  // s; a server that collects whole teams first accepts nobody before
+constexpr double kFirstPause = 0.1;     // s between two attempts to connect, grows by half each time
+constexpr double kLongestPause = 2.0;   // s
+constexpr double kPauseAfterRefusal =
+    2.0;  // s; the server may still hold the robot of a connection that was cut
 constexpr std::size_t kReadSize = 65536;  // bytes
 
 class PlayClient {
@@ -54,11 +58,7 @@ class PlayClient {
       : options_(options), turn_(options.host, options.port), signals_(io_, SIGINT, SIGTERM) {
     if (!options.draw.empty()) painter_ = std::make_unique<RobovizPainter>(options.draw);
     if (!options.trace.empty()) trace_ = std::make_unique<TraceFile>(options.trace);
-    if (!options.record.empty()) {
-      log_ = std::make_unique<protocol::LogWriter>(options.record, options.recordHeader);
-      if (options.session.agent.startPose)
-        log_->comment(agent::startComment(*options.session.agent.startPose));
-    }
+    if (!options.record.empty()) openLog(options.record);
     if (!options.report.empty()) {
       report_.open(options.report);
       if (!report_) throw std::runtime_error(cannotWriteReport());
@@ -76,6 +76,7 @@ class PlayClient {
       log_->close();
       watchLog();
     }
+    if (link_) add(link_->session.counts());
     report();
     return exit_;
   }
@@ -179,10 +180,10 @@ class PlayClient {
     link->socket.async_read_some(room(*link), [this, link](std::error_code error, std::size_t count) {
       if (isOver(link)) return;
       if (!error) error = absorb(link, count);
-      if (finished_) return;
+      if (isOver(link)) return;
       if (error) {
-        finish(PlayExit::ServerGone, fmt::format("the server at {}:{} is gone ({})", options_.host,
-                                                 options_.port, error.message()));
+        lose(PlayExit::ServerGone,
+             fmt::format("the server at {}:{} is gone ({})", options_.host, options_.port, error.message()));
         return;
       }
       reply(link);
@@ -202,11 +203,11 @@ class PlayClient {
       link->frames.received(count);
       while (const auto message = link->frames.next()) {
         if (!message->empty()) receive(*link, *message);
-        if (finished_) return {};
+        if (isOver(link)) return {};
       }
       if (link->frames.failed()) {
-        finish(PlayExit::Error, fmt::format("{}:{} does not speak our protocol: {}", options_.host,
-                                            options_.port, link->frames.error()));
+        lose(PlayExit::Error, fmt::format("{}:{} does not speak our protocol: {}", options_.host,
+                                          options_.port, link->frames.error()));
         return {};
       }
       count = link->socket.read_some(room(*link), error);
@@ -233,12 +234,12 @@ class PlayClient {
   void watchStage(Connection& connection) {
     const agent::Session& session = connection.session;
     if (session.stage() == agent::Session::Stage::Refused) {
-      finish(PlayExit::Refused, fmt::format("the server did not take {} {} into a team: the number is taken, "
-                                            "there are two other teams already, "
-                                            "or too many robots of type {} (at most 7 of a type, 9 of two "
-                                            "types, and 3 types in a full team)",
-                                            options_.session.agent.team, options_.session.agent.unum,
-                                            options_.session.agent.robotType));
+      lose(PlayExit::Refused, fmt::format("the server did not take {} {} into a team: the number is taken, "
+                                          "there are two other teams already, "
+                                          "or too many robots of type {} (at most 7 of a type, 9 of two "
+                                          "types, and 3 types in a full team)",
+                                          options_.session.agent.team, options_.session.agent.unum,
+                                          options_.session.agent.robotType));
     } else if (session.stage() == agent::Session::Stage::Playing && !connection.accepted) {
       connection.accepted = true;
       turn_.release();
@@ -279,6 +280,71 @@ class PlayClient {
     });
   }
 
+  // -- coming back
+
+  /// The end, unless we have played and are to come back: to a server that is started again, or after a
+  /// connection that was cut. Whoever does not get back into play for `wait` seconds gives up.
+  void lose(PlayExit exit, const std::string& message) {
+    if (finished_) return;
+    if (link_->accepted) {
+      lastInPlay_ = Clock::now();
+      nextPause_ = kFirstPause;
+    }
+    const bool inTime = lastInPlay_ && Seconds(Clock::now() - *lastInPlay_).count() < options_.wait;
+    if (!options_.reconnect || !inTime) return finish(exit, message);
+    say("{}, coming back", message);
+    ++lives_;
+    trouble_ = message;
+    if (link_->session.counts().messages > 0) nextLog();
+    add(link_->session.counts());
+    std::error_code ignored;
+    link_->silence.cancel();
+    link_->socket.close(ignored);
+    link_.reset();  // its handlers find that they are over
+    turn_.release();
+    reconnectAfter_ = kSilenceBeforeReconnect;
+    const double pause = exit == PlayExit::Refused ? kPauseAfterRefusal : nextPause_;
+    nextPause_ = std::min(nextPause_ * 1.5, kLongestPause);
+    pause_.set(pause, [this] {
+      started_ = Clock::now();
+      awaitTurn();
+    });
+  }
+
+  /// What was counted on the connections before.
+  void add(const agent::SessionCounts& counts) {
+    counts_.messages += counts.messages;
+    counts_.answers += counts.answers;
+    counts_.passedOver += counts.passedOver;
+    counts_.lostCycles += counts.lostCycles;
+    counts_.unknownTokens += counts.unknownTokens;
+  }
+
+  // -- the log
+
+  void openLog(const std::string& path) {
+    log_ = std::make_unique<protocol::LogWriter>(path, options_.recordHeader);
+    if (options_.session.agent.startPose)
+      log_->comment(agent::startComment(*options_.session.agent.startPose));
+  }
+
+  /// Each connection is another life of the agent, so it has a log of its own: 3.zst, 3.2.zst, 3.3.zst.
+  void nextLog() {
+    if (!log_) return;
+    log_->close();
+    watchLog();
+    const std::filesystem::path first(options_.record);
+    const std::string name =
+        fmt::format("{}.{}{}", first.stem().string(), lives_, first.extension().string());
+    try {
+      openLog((first.parent_path() / name).string());
+      toldOfLog_ = false;
+    } catch (const protocol::LogError& error) {
+      log_.reset();
+      fmt::print(stderr, "nonet play: {}; it goes on without a log\n", error.what());
+    }
+  }
+
   /// A full disk does not end a match, but is said when it happens.
   void watchLog() {
     if (!log_->failed() || toldOfLog_) return;
@@ -301,16 +367,20 @@ class PlayClient {
   }
 
   void report() {
-    const agent::SessionCounts counts = link_ ? link_->session.counts() : agent::SessionCounts();
+    const agent::SessionCounts& counts = counts_;
     if (counts.messages > 0) {
       say("{} messages, {} answered, {} passed over for a newer one, {} cycles without a message, {} unknown "
           "tokens",
           counts.messages, counts.answers, counts.passedOver, counts.lostCycles, counts.unknownTokens);
     }
     if (options_.report.empty()) return;
-    const nlohmann::json json = {{"exit", static_cast<int>(exit_)},  {"messages", counts.messages},
-                                 {"answers", counts.answers},        {"passed_over", counts.passedOver},
-                                 {"lost_cycles", counts.lostCycles}, {"unknown", counts.unknownTokens}};
+    const nlohmann::json json = {{"exit", static_cast<int>(exit_)},
+                                 {"messages", counts.messages},
+                                 {"answers", counts.answers},
+                                 {"passed_over", counts.passedOver},
+                                 {"lost_cycles", counts.lostCycles},
+                                 {"unknown", counts.unknownTokens},
+                                 {"connections", lives_}};
     report_ << json.dump() << "\n";
     if (!report_.flush()) fmt::print(stderr, "nonet play: {}\n", cannotWriteReport());
   }
@@ -338,7 +408,10 @@ class PlayClient {
   std::unique_ptr<TraceFile> trace_;
   std::unique_ptr<RobovizPainter> painter_;
   Link link_;
+  agent::SessionCounts counts_;
   Clock::time_point started_;
+  std::optional<Clock::time_point> lastInPlay_;
+  int lives_ = 1;
   std::string trouble_ = "no answer";  // why the last attempt to connect failed
   double nextPause_ = kFirstPause;
   double reconnectAfter_ = kSilenceBeforeReconnect;

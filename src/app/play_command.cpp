@@ -20,13 +20,25 @@ struct PlayArguments {
   std::string drawHost = "localhost";
 };
 
+/// An unknown name is no reason not to come: a challenge of a later year.
+void chooseChallenge(PlayArguments& arguments) {
+  const auto challenge = team::challengeFromName(arguments.challenge);
+  arguments.choice.challenge = challenge.value_or(team::Challenge::None);
+  const bool ownTask = challenge == team::Challenge::Run || challenge == team::Challenge::Kick;
+  fmt::print("challenge {}: {}\n", arguments.challenge,
+             ownTask ? "the agent starts at its place and does that"
+             : challenge
+                 ? "the agent starts at its place and plays as in a match"
+                 : "this name is not known (run, kick, goalie, passing, keepaway): it plays as in a match");
+}
+
 int runPlay(PlayArguments& arguments) {
   checkTeamName(arguments.choice.team);
   if (!arguments.start.empty()) {
     arguments.choice.startPose = Pose2(arguments.start.at(0), arguments.start.at(1), 0.0);
   }
   if (!arguments.challenge.empty()) {
-    fmt::print("challenge {}: the agent starts at its place and plays as in a match\n", arguments.challenge);
+    chooseChallenge(arguments);
   }
   PlayOptions& play = arguments.play;
   if (arguments.draw) play.draw = arguments.drawHost;
@@ -82,10 +94,14 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--wait", play.wait, "Seconds to wait for a server, and for its first message")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  command->add_flag("--reconnect", play.reconnect,
+                    "Come back to a server that is started again, or after a cut connection; give up after "
+                    "--wait seconds. Each connection has its own log: 3.zst, 3.2.zst, ...");
   command->add_option("--start", arguments->start, "Beam to X,Y instead of the kick-off place")
       ->delimiter(',')
       ->expected(2);
-  command->add_option("--challenge", arguments->challenge, "Name of a technical challenge");
+  command->add_option("--challenge", arguments->challenge,
+                      "Technical challenge: run, kick, goalie, passing or keepaway");
   command->add_option("--report", play.report, "Write what was counted as JSON at the end");
   command->add_flag("--at-once", play.atOnce,
                     "Connect without waiting for other agents of this machine to introduce themselves");

@@ -1,5 +1,15 @@
 // Reads parameters from TOML. The only file that includes toml++, which takes long to compile.
 #define TOML_ENABLE_FORMATTERS 0  // reading only
+// toml++ 3.3 takes some malformed texts ("[[!a]]") for a fault of its own. Its assertions are errors of the
+// text here, in every build: with NDEBUG they would be promises to the optimiser.
+namespace nonet::config::detail {
+struct TomlAssertion {};
+[[noreturn]] inline void failToml() {
+  throw TomlAssertion{};
+}
+}  // namespace nonet::config::detail
+#undef NDEBUG
+#define TOML_ASSERT(expr) ((expr) ? void() : nonet::config::detail::failToml())
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -129,6 +139,9 @@ void overlayText(const std::vector<Field>& fields, std::string_view toml, const 
   } catch (const toml::parse_error& error) {
     throw ParameterError(
         fmt::format("{}not TOML: {}", reader.at(error.source().begin.line), error.description()));
+  } catch (const TomlAssertion&) {
+    throw ParameterError(
+        fmt::format("{}not TOML, somewhere: a table's or key's name cannot be read", reader.at(1)));
   }
   reader.read(table, "");
 }

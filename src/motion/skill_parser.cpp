@@ -53,8 +53,17 @@ class Parser : private SkillReader {
     const auto begins = [](const SkillToken& token) { return token.text == "skill"; };
     try {
       while (peek().kind != Kind::End) {
-        part([&] { skills.push_back(parseSkill()); }, begins);
-        if (collects() && peek().kind != Kind::End && !begins(peek())) take();  // a bracket too many
+        bool whole = false;
+        part(
+            [&] {
+              skills.push_back(parseSkill());
+              whole = true;
+            },
+            begins);
+        if (!collects() || peek().kind == Kind::End || begins(peek())) continue;
+        // A bracket too many: an error of its own, unless it follows from one that was told.
+        if (whole) note(peek(), fmt::format("expected 'skill', found '{}'", peek().text));
+        take();
       }
     } catch (const GivenUp&) {
       return skills;

@@ -25,12 +25,14 @@ Tidings tidingsOf(const Situation& situation) {
 
 }  // namespace
 
-Behavior::Behavior(const TeamParameters& parameters) : tracker_(parameters), radio_(parameters.radio) {}
+Behavior::Behavior(const TeamParameters& parameters, Challenge challenge)
+    : tracker_(parameters), radio_(parameters.radio), challenge_(challenge) {}
 
 const Action& Behavior::update(const world::WorldState& world, const motion::MotionState& motion) {
   const Situation situation = tracker_.update(world, motion);
   role_ = situation.role;
-  action_ = decide(situation);
+  const std::optional<Action> own = challenge_.update(situation);
+  action_ = own ? *own : decide(situation);
   if (!action_.head) action_.head = lookAtBall(world);
   if (action_.beam) tracker_.noticeBeam(world.time);
   Tidings tidings = tidingsOf(situation);

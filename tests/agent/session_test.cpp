@@ -137,5 +137,17 @@ TEST(Session, SurvivesAnything) {
   EXPECT_GT(session.counts().unknownTokens, 0);
 }
 
+// Comments of a log come from outside.
+TEST(AgentSetup, AStartIsThreeNumbersOrNone) {
+  const Pose2 start(-3.5, 2.0, 0.5);
+  const auto read = startFromComment(startComment(start));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->translation, start.translation);
+  EXPECT_EQ(read->rotation, start.rotation);
+  for (const std::string_view text :
+       {"start [\"a\", 1, 2]", "start [1, 2, null]", "start [1, 2]", "start {}", "start [1, 2,", "stop"})
+    EXPECT_FALSE(startFromComment(text)) << text;
+}
+
 }  // namespace
 }  // namespace nonet::agent

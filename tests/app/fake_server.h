@@ -19,6 +19,11 @@ class FakeServer {
 
   int port() const { return acceptor_.local_endpoint().port(); }
 
+  /// Whether somebody has come within `seconds`, for accept().
+  bool waits(double seconds) {
+    pollfd descriptor{acceptor_.native_handle(), POLLIN, 0};
+    return ::poll(&descriptor, 1, static_cast<int>(seconds * 1000)) > 0;
+  }
   void accept() {
     frames_.reset();
     socket_ = acceptor_.accept();

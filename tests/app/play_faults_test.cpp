@@ -117,6 +117,89 @@ TEST_F(PlayFaults, SaysThatTheDiskIsFullWhenItIsAndPlaysOn) {
   EXPECT_EQ(output.find("recording stops"), output.rfind("recording stops")) << "said once";
 }
 
+/// Reads on until the robot introduces itself, and takes it into the team.
+void takeIn(FakeServer& server) {
+  EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
+  server.send(standingMessage(1.0));
+  std::optional<std::string> answer = server.receive();
+  while (answer && answer->starts_with("(syn)")) answer = server.receive();
+  EXPECT_THAT(answer.value_or(""), StartsWith("(init (unum 3)"));
+  server.send(standingMessage(1.02, "(unum 3) (team left) "));
+  EXPECT_TRUE(server.receive().has_value());
+}
+
+// A cut connection, half a message, nonsense instead of one: each time the robot introduces itself anew, and
+// each of its lives has a log that can be replayed.
+TEST_F(PlayFaults, ComesBackIfToldTo) {
+  const auto program = play({"--reconnect", "--wait", "5", "--record", folder.file("log.zst")});
+  for (const std::string& lastBytes :
+       {std::string(), std::string("\0\0\1\0(time (now", 14), std::string("\xff\xff\xff\xff", 4)}) {
+    server.accept();
+    takeIn(server);
+    server.sendRaw(lastBytes);
+    server.close();
+  }
+  server.accept();
+  takeIn(server);
+  ::kill(program->pid(), SIGTERM);
+  EXPECT_EQ(program->wait(), 0);
+  EXPECT_THAT(program->output(), HasSubstr("8 messages, 8 answered")) << "all connections together";
+  for (const std::string name : {"log.zst", "log.2.zst", "log.3.zst", "log.4.zst"}) {
+    Program replay({"replay", folder.file(name)}, folder.file("replay.txt"));
+    EXPECT_EQ(replay.wait(), 0) << name << replay.output();
+  }
+}
+
+TEST_F(PlayFaults, LooksForALostServerAsLongAsToldAndWithoutBeingToldNotAtAll) {
+  for (const bool reconnect : {false, true}) {
+    auto own = std::make_unique<FakeServer>();
+    std::vector<std::string> arguments = {"play",   "--port", std::to_string(own->port()), "--unum", "3",
+                                          "--wait", "1"};
+    if (reconnect) arguments.emplace_back("--reconnect");
+    Program program(arguments, folder.file("lost.txt"));
+    own->accept();
+    takeIn(*own);
+    own.reset();
+    const auto begin = Clock::now();
+    EXPECT_EQ(program.wait(), reconnect ? 2 : 3) << program.output();
+    if (reconnect) {
+      EXPECT_GT(secondsSince(begin), 0.9);
+      EXPECT_LT(secondsSince(begin), 3.0);
+    }
+  }
+}
+
+// A server that closes every connection at once is not besieged for ever.
+TEST_F(PlayFaults, GivesUpOnAServerThatDoesNotTakeItBack) {
+  const auto program = play({"--reconnect", "--wait", "1"});
+  server.accept();
+  takeIn(server);
+  server.close();
+  const auto begin = Clock::now();
+  while (program->running() && secondsSince(begin) < 8.0) {
+    if (server.waits(0.2)) {
+      server.accept();
+      server.close();
+    }
+  }
+  EXPECT_LT(secondsSince(begin), 4.0);
+  EXPECT_THAT(program->output(), HasSubstr("is gone"));
+}
+
+TEST_F(PlayFaults, PlaysOnWithoutALogIfTheNextOneCannotBeWritten) {
+  const std::string logs = folder.file("logs");
+  fs::create_directories(logs);
+  const auto program = play({"--reconnect", "--record", logs + "/a.zst"});
+  server.accept();
+  takeIn(server);
+  fs::remove_all(logs);
+  server.close();
+  server.accept();
+  takeIn(server);
+  EXPECT_TRUE(program->says("a.2.zst: .*it goes on without a log"));
+  server.close();
+}
+
 TEST(CommandLine, WrongOptionsEndWithOne) {
   const TestFolder folder("nonet_options");
   for (const std::vector<std::string>& wrong : {std::vector<std::string>{"play", "--port", "99999"},

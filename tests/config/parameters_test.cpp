@@ -161,6 +161,7 @@ TEST(Parameters, ErrorsNameFileLineAndRemedy) {
   EXPECT_THAT(errorOf("lift = 0.1\n"), HasSubstr("'walk.swing.lift'"));  // the group left out
   EXPECT_THAT(errorOf("top = 1\ntop = 2\n"), testing::AllOf(HasSubstr("set.toml:2:"), HasSubstr("not TOML")));
   EXPECT_THAT(errorOf("top = \n"), testing::AllOf(HasSubstr("set.toml:1:"), HasSubstr("not TOML")));
+  EXPECT_THAT(errorOf("[[!top]]\n"), testing::AllOf(HasSubstr("set.toml:1:"), HasSubstr("not TOML")));
   EXPECT_THAT(errorOf("provenance = 1\n"), HasSubstr("unknown key"));
 }
 

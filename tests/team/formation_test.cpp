@@ -66,11 +66,14 @@ TEST(Formation, LeavesRoomBetweenThePlacesAlsoNearLinesAndGoals) {
   const world::FieldGeometry field;
   for (double x = -14.5; x <= 14.5; x += 0.5) {
     for (double y = -9.5; y <= 9.5; y += 0.5) {
-      const Formation formation = formationFor({x, y}, 8, field, {});
-      for (int i = 0; i < formation.count; ++i)
-        for (int j = 0; j < i; ++j)
-          EXPECT_GT((formation.positions[i] - formation.positions[j]).norm(), 0.7)
-              << i << " and " << j << " for a ball at " << x << " " << y;
+      // Nine and eleven players with the goalie.
+      for (const int count : {8, kMaxAssigned}) {
+        const Formation formation = formationFor({x, y}, count, field, {});
+        for (int i = 0; i < formation.count; ++i)
+          for (int j = 0; j < i; ++j)
+            EXPECT_GT((formation.positions[i] - formation.positions[j]).norm(), 0.7)
+                << i << " and " << j << " of " << count << " for a ball at " << x << " " << y;
+      }
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
 #include "nonet/team/action.h"
+#include "nonet/team/challenge.h"
 #include "nonet/team/formation.h"
 #include "nonet/world/world_state.h"
 
@@ -24,6 +25,7 @@ struct AgentConfig {
   AgentParameters parameters;
   std::string skillFolder;         // folder of the *.skl files
   std::optional<Pose2> startPose;  // challenges: beam here instead of to the kick-off place (own field frame)
+  team::Challenge challenge = team::Challenge::None;  // play this instead of a match
 };
 
 /// The part of it below the team.

@@ -21,6 +21,7 @@ struct AgentChoice {
   std::vector<std::string> parameterFiles;  // overlaid in this order
   std::vector<std::string> assignments;     // single parameters, "team.ball.kick=false", set last
   std::optional<Pose2> startPose;           // own field frame
+  team::Challenge challenge = team::Challenge::None;
 };
 
 /// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml, then the given files,

@@ -23,5 +23,6 @@ void addWalkReportCommand(CLI::App& app, int& exitCode);
 void addRiseReportCommand(CLI::App& app, int& exitCode);
 void addKickReportCommand(CLI::App& app, int& exitCode);
 void addParamsCommand(CLI::App& app, int& exitCode);
+void addSoakCommand(CLI::App& app, int& exitCode);
 
 }  // namespace nonet::app

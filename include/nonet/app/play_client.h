@@ -24,13 +24,14 @@ struct PlayOptions {
   agent::SessionOptions session;
   std::string record;  // log file; empty: none
   protocol::LogHeader recordHeader;
-  std::string trace;    // file for the decision trace; empty: none
-  std::string draw;     // host of RoboViz to draw on; empty: none
-  std::string report;   // JSON of what was counted, written at the end; empty: none
-  bool rescue = true;   // before the first message, free a lock-step server that hangs
-  bool atOnce = false;  // introduce oneself without waiting for other agents of this machine
-  double wait = 30.0;   // s until a server must have sent its first message
-  bool quiet = false;   // only errors
+  std::string trace;       // file for the decision trace; empty: none
+  std::string draw;        // host of RoboViz to draw on; empty: none
+  std::string report;      // JSON of what was counted, written at the end; empty: none
+  bool rescue = true;      // before the first message, free a lock-step server that hangs
+  bool atOnce = false;     // introduce oneself without waiting for other agents of this machine
+  double wait = 30.0;      // s until a server must have sent its first message
+  bool reconnect = false;  // who has played and loses the connection looks for the server again, for `wait` s
+  bool quiet = false;      // only errors
 };
 
 /// Plays until the server goes, refuses, or a signal comes. Says what happens on standard output, errors on

@@ -4,6 +4,7 @@
 
 #include "nonet/motion/motion_state.h"
 #include "nonet/team/action.h"
+#include "nonet/team/challenge.h"
 #include "nonet/team/parameters.h"
 #include "nonet/team/radio.h"
 #include "nonet/team/situation_tracker.h"
@@ -13,7 +14,7 @@ namespace nonet::team {
 
 class Behavior {
  public:
-  explicit Behavior(const TeamParameters& parameters);
+  explicit Behavior(const TeamParameters& parameters, Challenge challenge = Challenge::None);
 
   /// One cycle; allocates nothing. The action is valid until the next call.
   const Action& update(const world::WorldState& world, const motion::MotionState& motion);
@@ -26,6 +27,7 @@ class Behavior {
  private:
   SituationTracker tracker_;
   Radio radio_;
+  ChallengePlayer challenge_;
   Role role_ = Role::Stopper;
   Action action_;
 };

@@ -2,6 +2,7 @@
 // ODE worlds in which that happens.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -73,7 +74,12 @@ struct Island {
   std::vector<PendingContact*> contacts;  // in order of creation
   CommonWorld* common = nullptr;          // for more than one member
   std::vector<BodyNode*> stack;           // scratch
-  std::vector<BodyNode*> moved;           // by the step, in ODE's order
+  struct Pose {
+    std::array<dReal, 3> position{};
+    std::array<dReal, 4> quaternion{};
+  };
+  std::vector<Pose> posesBefore;  // of all bodies of all members, before the step
+  std::vector<BodyNode*> moved;   // by the step, in ODE's order
 };
 
 /// Has ODE report each body that it moves to the island.

@@ -1,6 +1,7 @@
 // One cycle of the physics: drag and sensor sampling, collision, ODE's step, poses back to the scene.
 #include <algorithm>
 
+#include "sim/physics/containment.h"
 #include "sim/physics/ode_parameters.h"
 #include "sim/physics/scene.h"
 #include "sim/physics/world_implementation.h"
@@ -66,6 +67,16 @@ void mixSurfaces(const Surface& a, const Surface& b, dSurfaceParameters& surface
 
 bool involves(const ContactPair& pair, ContactParty::Kind kind) {
   return pair.first.kind == kind || pair.second.kind == kind;
+}
+
+void stepIsland(Island& island, WorldSettings::Solver solver) {
+  rememberPoses(island);
+  if (solver == WorldSettings::Solver::Exact) {
+    stepExactly(island, kServerCycleTime);
+  } else {
+    stepQuickly(island, kServerCycleTime);
+  }
+  contain(island);
 }
 
 }  // namespace
@@ -145,10 +156,8 @@ void World::Implementation::stepPhysics(const SharedWork& alongside) {
   workers.run(islandsUsed + alongside.count, [this, &alongside](std::size_t i) {
     if (i >= islandsUsed) {
       alongside.piece(i - islandsUsed);
-    } else if (settings.solver == WorldSettings::Solver::Exact) {
-      stepExactly(*islandsBySize[i], kServerCycleTime);
     } else {
-      stepQuickly(*islandsBySize[i], kServerCycleTime);
+      stepIsland(*islandsBySize[i], settings.solver);
     }
   });
   placeMovedGeoms();

@@ -20,6 +20,13 @@ double leadingNumber(std::string_view text) {
   return value;
 }
 
+// As an int has room for; elsewhere nothing is meant that this server knows.
+std::optional<int> wholeNumber(std::optional<double> value) {
+  constexpr double kMost = 1e9;
+  if (!value || !(std::abs(*value) <= kMost)) return std::nullopt;
+  return static_cast<int>(*value);
+}
+
 // Team words are case-sensitive; an unknown one counts as None.
 TeamSide sideFromWord(std::string_view word) {
   return word == "Left" ? TeamSide::Left : word == "Right" ? TeamSide::Right : TeamSide::None;
@@ -76,13 +83,16 @@ struct Trainer::Command {
       spdlog::warn("trainer: ({} ...) in ({} ...) needs {} numbers", wanted, name, count);
       return std::nullopt;
     }
+    // Physics that is a kilometre away or faster than a bullet ends in infinite numbers, for all.
+    constexpr double kMost = 1e3;
     std::vector<float> values;
-    for (std::size_t i = 0; i < count; ++i)
-      values.push_back(static_cast<float>(leadingNumber(found->values[i])));
-    for (const float value : values) {
-      if (std::isfinite(value)) continue;
-      spdlog::warn("trainer: ({} ...) in ({} ...) holds a number that is not finite", wanted, name);
-      return std::nullopt;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = leadingNumber(found->values[i]);
+      if (!(std::abs(value) <= kMost)) {
+        spdlog::warn("trainer: ({} ...) in ({} ...) holds a number beyond {}", wanted, name, kMost);
+        return std::nullopt;
+      }
+      values.push_back(static_cast<float>(value));
     }
     return values;
   }
@@ -130,13 +140,13 @@ Trainer::Outcome Trainer::execute(std::string_view message) {
 }
 
 Player* Trainer::named(const Command& command, bool& specified) {
-  const auto unum = command.number("unum");
+  const auto number = command.number("unum");
+  const std::optional<int> unum = wholeNumber(number);
   const Command::List* team = command.list("team");
-  specified = unum.has_value() && team != nullptr && !team->values.empty();
+  specified = number.has_value() && team != nullptr && !team->values.empty();
   const TeamSide side = specified ? sideFromWord(team->values[0]) : TeamSide::None;
   for (Player& player : players_) {
-    if (specified ? player.unum == static_cast<int>(*unum) && player.side == side : player.selected)
-      return &player;
+    if (specified ? unum == player.unum && player.side == side : player.selected) return &player;
   }
   return nullptr;
 }
@@ -194,7 +204,7 @@ void Trainer::selectCommand(const Command& command) {
   const auto unselectAll = [this] {
     for (Player& player : players_) player.selected = false;
   };
-  if (unum && static_cast<int>(*unum) == -1) return unselectAll();
+  if (wholeNumber(unum) == -1) return unselectAll();
   const Command::List* team = command.list("team");
   if (!unum || team == nullptr || team->values.empty()) return selectNext();
   bool specified = false;
@@ -227,14 +237,15 @@ void Trainer::reposition(const Command& command) {
 void Trainer::timeCommand(const Command& command) {
   if (command.atoms.empty()) return;
   const double time = leadingNumber(command.atoms[0]);
-  if (time >= 0.0) referee_.game().setTime(static_cast<float>(time));
+  constexpr double kLatest = 5e5;  // s; a float that is larger hardly advances by a cycle any more
+  if (time >= 0.0 && time <= kLatest) referee_.game().setTime(static_cast<float>(time));
 }
 
 void Trainer::scoreCommand(const Command& command) {
-  const auto left = command.number("left");
-  const auto right = command.number("right");
-  if (!left || !right || *left < 0.0 || *right < 0.0) return;
-  referee_.game().setScores(static_cast<int>(*left), static_cast<int>(*right));
+  const auto left = wholeNumber(command.number("left"));
+  const auto right = wholeNumber(command.number("right"));
+  if (!left || !right || *left < 0 || *right < 0) return;
+  referee_.game().setScores(*left, *right);
 }
 
 }  // namespace nonet::sim

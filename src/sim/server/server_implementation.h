@@ -67,6 +67,7 @@ struct Server::Implementation {
   void waitForAnswers();
   void giveUpWaiting();
   void deliverCommands();
+  bool mustWaitToBeBorn(const AgentLink& link);
   void sendSenses();
   void sendSense(AgentLink& link, const protocol::Percept& percept);
   void noticeSilence();
@@ -92,7 +93,9 @@ struct Server::Implementation {
   SteadyClock::time_point nextCycle = SteadyClock::now();
   long cycles = 0;
   long cyclesAfterEnd = 0;
-  std::string text;  // reused
+  AgentHandle newborn = kNoAgent;  // whose robot was built last
+  long bornAt = 0;                 // cycle
+  std::string text;                // reused
 };
 
 }  // namespace nonet::sim

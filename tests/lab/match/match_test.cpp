@@ -100,6 +100,31 @@ TEST(Match, NineAloneStandAndScore) {
   EXPECT_LE(falls, 2) << "of 27 robots";
 }
 
+// The goalie and ten others: nobody is refused, and by radio they come to as many different roles.
+TEST(Match, ElevenAgreeOnElevenRoles) {
+  MatchChoice choice;
+  choice.left.players = 11;
+  choice.right.players = 0;
+  choice.minutes = 1.0;
+  choice.kickOffWait = 2.0;
+  std::map<sim::AgentHandle, team::Role> roles;
+  int agreed = 0;
+  int cycles = 0;
+  MatchObservers observers;
+  observers.afterThought = [&](const Thought& thought) { roles[thought.handle] = thought.agent.role(); };
+  observers.afterCycle = [&](const sim::Simulation&, const MatchWatcher& watcher) {
+    if (watcher.result().gameTime < 1.0) return true;
+    std::set<team::Role> different;
+    for (const auto& [handle, role] : roles) different.insert(role);
+    agreed += different.size() == 11U ? 1 : 0;
+    return ++cycles < 100;
+  };
+  const MatchResult result = playInProcess(choice, NONET_SOURCE_DIR, 2, observers);
+  EXPECT_EQ(roles.size(), 11U);
+  for (const PlayerRecord& player : result.players) EXPECT_TRUE(player.connected) << player.unum;
+  EXPECT_GT(agreed, 80) << "of 100 cycles";
+}
+
 TEST(Match, CanBeStopped) {
   int cycles = 0;
   MatchObservers observers;

@@ -158,10 +158,30 @@ TEST(TrainerCommand, ReqfullstateAndKillsim) {
 TEST(TrainerCommand, UnknownMalformedAndUnfinishedOnesAreIgnored) {
   Trained t;
   const auto signature = t.sim.signature();
-  for (const char* text :
-       {"(init)", "(getAck)", "(nothing 1 2)", "ball", "()", "(ball (pos 1 2))", "(ball (pos nan 0 0))",
-        "(agent (team Left)(unum 9)(pos 0 0 1))", "(agent (team Left)(unum 2)(move 0 0 inf 0))", "(playMode",
-        "(kickOff)", "(time)", "(((((", "(ball (pos 1 2 3)"}) {
+  for (const char* text : {"(init)",
+                           "(getAck)",
+                           "(nothing 1 2)",
+                           "ball",
+                           "()",
+                           "(ball (pos 1 2))",
+                           "(ball (pos nan 0 0))",
+                           "(agent (team Left)(unum 9)(pos 0 0 1))",
+                           "(agent (team Left)(unum 2)(move 0 0 inf 0))",
+                           "(playMode",
+                           "(kickOff)",
+                           "(time)",
+                           "(((((",
+                           "(ball (pos 1 2 3)",
+                           "(time nan)",
+                           "(time inf)",
+                           "(time 1e30)",
+                           "(ball (pos 1e30 0 0))",
+                           "(ball (vel 0 -1e9 0))",
+                           "(score (left nan)(right 1))",
+                           "(score (left 1e20)(right 1))",
+                           "(select (unum nan)(team Left))",
+                           "(kill (unum 1e30)(team Left))",
+                           "(agent (unum -1e30)(team Left)(pos 0 0 1))"}) {
     EXPECT_TRUE(t.sim.trainer(text)) << text;
     EXPECT_EQ(t.sim.signature(), signature) << text;
   }

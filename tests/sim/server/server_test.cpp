@@ -1,6 +1,7 @@
 // The server on the loopback: lock-step, reproducible matches, and clients that misbehave.
 #include "nonet/sim/server/server.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -437,6 +438,38 @@ TEST(RealTime, KeepsTheClock) {
   for (int i = 0; i < 50; ++i) ASSERT_TRUE(client.receive());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   EXPECT_GT(took.count(), 0.9) << "never faster than 20 ms per cycle";
+}
+
+// All robots are built at the same place: without turns they would stand in each other, and a cycle take
+// seconds.
+TEST(RealTime, ManyThatComeAtOnceAreBornOneAfterTheOther) {
+  ServerOptions options = lockStep();
+  options.lockStep = false;
+  options.realTime = true;
+  const Running running(options);
+  constexpr int kMany = 6;
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < kMany; ++i) {
+    clients.push_back(std::make_unique<Client>(running.server.agentPort()));
+    clients.back()->send(sceneText(0));
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  // Whose turn comes when is not known: each says init as soon as it hears something.
+  std::vector<bool> asked(kMany, false);
+  std::vector<bool> plays(kMany, false);
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  while (seconds() < 8.0 && std::count(plays.begin(), plays.end(), true) < kMany) {
+    for (std::size_t i = 0; i < clients.size(); ++i) {
+      const auto message = clients[i]->receive(0.005);
+      if (!message) continue;
+      if (!asked[i]) clients[i]->send(initText(static_cast<int>(i) + 1, "Reds"));
+      asked[i] = true;
+      plays[i] = plays[i] || message->find("(unum ") != std::string::npos;
+    }
+  }
+  EXPECT_EQ(std::count(plays.begin(), plays.end(), true), kMany) << "after " << seconds() << " s";
 }
 
 TEST(Match, EndsTheServerWhenAsked) {

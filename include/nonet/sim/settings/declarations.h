@@ -33,6 +33,8 @@ struct Shorthand {
     visit({name, Unit::None, {}, fixed, text}, field);
   }
 };
+template <class Visitor>
+Shorthand(Visitor&) -> Shorthand<Visitor>;  // clang 14 does not find it by itself
 
 template <class Self, class Visitor>
 void describeField(Self& s, Visitor&& visit) {

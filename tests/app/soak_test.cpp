@@ -1,0 +1,122 @@
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "nonet/app/soak/match_soak.h"
+#include "nonet/app/soak/memory_watch.h"
+
+#include "app/program.h"
+
+namespace nonet::app {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+Json jsonIn(const std::string& path) {
+  std::ifstream file(path);
+  return Json::parse(file);
+}
+
+TEST(SoakCounts, ACrashAMissingAndALateOneAreToldApart) {
+  const auto match = nlohmann::json::parse(R"({"finished": true, "cycles": 50, "timeouts": 2, "players": [
+      {"connected": true, "ending": "", "passed_over": 3, "lost_cycles": 4, "messages": 48},
+      {"connected": true, "ending": "killed by signal 11", "passed_over": 0, "lost_cycles": 0, "messages": 7},
+      {"connected": false, "ending": "", "passed_over": 0, "lost_cycles": 0, "messages": 0}]})");
+  const Json line = countFaults(match);
+  EXPECT_EQ(line["unfinished"], 0);
+  EXPECT_EQ(line["crashed"], 1);
+  EXPECT_EQ(line["missing"], 1);
+  EXPECT_EQ(line["late"], 5);
+  EXPECT_EQ(line["lost_cycles"], 4);
+  EXPECT_EQ(line["messages"], 55);
+  EXPECT_EQ(countFaults(nlohmann::json())["unfinished"], 1) << "no result at all";
+}
+
+TEST(SoakCounts, NumbersAreSummedAndTheLargestKept) {
+  const Json sum =
+      sumUp({{{"index", 0}, {"real_time", true}, {"players", 11}, {"late", 2}, {"most_agent_mb", 5.0}},
+             {{"index", 1}, {"real_time", false}, {"players", 9}, {"late", 3}, {"most_agent_mb", 4.0}}});
+  EXPECT_EQ(sum["matches"], 2);
+  EXPECT_EQ(sum["real_time_matches"], 1);
+  EXPECT_EQ(sum["matches_of_eleven"], 1);
+  EXPECT_EQ(sum["late"], 5);
+  EXPECT_EQ(sum["most_agent_mb"], 5.0);
+}
+
+TEST(SoakCounts, MatchesAreMixedAsToldAndTheSameAgain) {
+  MatchSoakOptions options;
+  int realTime = 0;
+  int eleven = 0;
+  for (int index = 0; index < 400; ++index) {
+    const SoakMatch match = soakMatch(options, index);
+    EXPECT_EQ(match.seed, soakMatch(options, index).seed);
+    realTime += match.realTime ? 1 : 0;
+    eleven += match.players == 11 ? 1 : 0;
+  }
+  EXPECT_NEAR(realTime, 200, 40);
+  EXPECT_NEAR(eleven, 100, 35);
+}
+
+TEST(SoakMemory, TheSlopeIsThatOfTheLine) {
+  EXPECT_DOUBLE_EQ(slopeOf({0, 1, 2, 3}, {5, 7, 9, 11}), 2.0);
+  EXPECT_NEAR(slopeOf({0, 1, 2, 3}, {1, -1, -1, 1}), 0.0, 1e-12);
+  EXPECT_EQ(slopeOf({1, 1, 1}, {1, 2, 3}), 0.0);
+  EXPECT_GT(residentMemory(::getpid()), 1.0);
+  EXPECT_EQ(residentMemory(-1), 0.0);
+  MemoryWatch watch;
+  for (double time = 0.0; time < kShortestWatch; time += 10.0) watch.look(time, ::getpid());
+  EXPECT_FALSE(watch.growth().perHour) << "too short";
+  EXPECT_GT(watch.growth().megabytes, 1.0);
+  std::vector<std::string> grown;
+  for (double time = kShortestWatch; time <= 2.0 * kShortestWatch; time += 10.0) {
+    grown.emplace_back(1 << 20, 'x');
+    watch.look(time, ::getpid());
+  }
+  // A megabyte every ten seconds.
+  EXPECT_NEAR(watch.growth().perHour.value_or(0.0), 360.0, 100.0);
+}
+
+// The second call finds the first match and plays only the rest.
+TEST(Soak, PlaysMatchesAndGoesOnWhereItWas) {
+  const TestFolder folder("nonet_soak");
+  for (const std::string matches : {"1", "2"}) {
+    Program program({"soak", "--matches", matches, "--minutes", "0.03", "--kick-off-wait", "0.3", "--players",
+                     "2", "--eleven-share", "0", "--realtime-share", "0", "--out", folder.file("out")},
+                    folder.file("soak.txt"));
+    ASSERT_EQ(program.wait(), 0) << program.output();
+    const Json sum = jsonIn(folder.file("out/result.json"));
+    EXPECT_EQ(sum["matches"].dump(), matches);
+    for (const std::string fault :
+         {"faults", "unfinished", "crashed", "missing", "late", "lost_cycles", "torn_logs"})
+      EXPECT_EQ(sum[fault], 0) << fault;
+    EXPECT_GT(sum["messages"], 100);
+    EXPECT_EQ(program.output().find("resumed: 1 matches") != std::string::npos, matches == "2");
+  }
+}
+
+TEST(Soak, WhoIsHarmedComesBack) {
+  const TestFolder folder("nonet_soak_faults");
+  Program program({"soak", "--faults", "--times", "1", "--players", "2", "--pause", "0.2", "--kinds",
+                   "kill,cut,server", "--out", folder.file("out")},
+                  folder.file("soak.txt"));
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  const Json result = jsonIn(folder.file("out/faults.json"));
+  EXPECT_TRUE(result["complete"]);
+  for (const std::string kind : {"kill", "cut", "server"})
+    EXPECT_EQ(result["faults"][kind]["survived"], 1) << kind;
+}
+
+TEST(Soak, RandomCommandsAreWatched) {
+  const TestFolder folder("nonet_soak_effectors");
+  Program program({"soak", "--effectors", "0.05", "--players", "2", "--json"}, folder.file("soak.txt"));
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  const std::string text = program.output();
+  const Json result = Json::parse(text.substr(text.find('{')));
+  EXPECT_EQ(result["cycles"], 150);
+  EXPECT_EQ(result["violations"], 0);
+}
+
+}  // namespace
+}  // namespace nonet::app

@@ -1,0 +1,89 @@
+// What must hold for any text that is read as a skill file. Returns what is wrong, or nothing.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "nonet/motion/skill_language.h"
+#include "nonet/motion/skill_player.h"
+
+namespace nonet::fuzz {
+
+inline std::string describe(const std::vector<motion::Skill>& skills) {
+  std::string text;
+  const auto add = [&text](const motion::BallValue& value) {
+    text += fmt::format("{} {} {};", value.constant, value.perAhead, value.perAside);
+  };
+  for (const motion::Skill& skill : skills) {
+    text += fmt::format("skill {} {} {}\n", skill.name, skill.loopSlots, skill.conditions.size());
+    for (const motion::SkillParameter& parameter : skill.parameters)
+      text += fmt::format("{} {} {}\n", parameter.name, parameter.value, static_cast<int>(parameter.unit));
+    for (const motion::Instruction& instruction : skill.program) {
+      text +=
+          fmt::format("{} {} {} {} {} {}:", static_cast<int>(instruction.kind), instruction.value,
+                      instruction.target, instruction.count, instruction.calleeName, instruction.mirrored);
+      add(instruction.duration);
+      for (const motion::JointGoal& goal : instruction.joints) {
+        text += fmt::format("{} ", static_cast<int>(goal.joint));
+        add(goal.angle);
+        add(goal.after);
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+/// Plays the first skill for a second: it may fail, but never tells a joint something that is no number.
+inline std::string checkPlaying(const std::vector<motion::Skill>& skills) {
+  motion::SkillLibrary library;
+  try {
+    library = motion::SkillLibrary(skills);
+  } catch (const motion::SkillError&) {
+    return {};
+  }
+  if (library.size() == 0) return {};
+  motion::SkillPlayer player(model::robotModel(0), library);
+  world::WorldState world;
+  world.body.cycleTime = kCycleTime;
+  motion::JointTargets targets;
+  targets.stiffness.fill(1.0);
+  for (const bool mirrored : {false, true}) {
+    if (!player.start(library.skill(0).name, mirrored, targets.angles, Vector2(0.2, 0.05)))
+      return "does not start";
+    for (int cycle = 0; cycle < 50; ++cycle) {
+      const auto result = player.update(world, targets);
+      for (const double angle : targets.angles) {
+        if (!std::isfinite(angle)) return "an angle is not finite";
+      }
+      if (result != motion::SkillPlayer::Result::Running) break;
+    }
+  }
+  return {};
+}
+
+/// A text parses or is refused by a line that names file and place; a formatted text means the same.
+inline std::string checkSkillText(std::string_view text) {
+  static const std::string kFile = "fuzz.skl";
+  const motion::SkillCheck check = motion::checkSkills(text, kFile);
+  for (const std::string& error : check.errors) {
+    if (error.substr(0, kFile.size() + 1) != kFile + ":") return "an error without its place: " + error;
+  }
+  std::vector<motion::Skill> skills;
+  try {
+    skills = motion::parseSkills(text, kFile);
+  } catch (const motion::SkillError& error) {
+    return check.errors.empty() ? fmt::format("the check does not find: {}", error.what()) : "";
+  }
+  if (check.errors.empty() && describe(check.skills) != describe(skills))
+    return "the check reads something else";
+  const std::string formatted = motion::formatSkills(text, kFile);
+  if (motion::formatSkills(formatted, kFile) != formatted) return "formatting twice differs";
+  if (describe(motion::parseSkills(formatted, kFile)) != describe(skills))
+    return "formatted it means something else";
+  return checkPlaying(skills);
+}
+
+}  // namespace nonet::fuzz
