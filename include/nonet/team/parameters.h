@@ -5,6 +5,7 @@
 #include "nonet/team/ball_parameters.h"
 #include "nonet/team/choice_parameters.h"
 #include "nonet/team/place_parameters.h"
+#include "nonet/team/variant_parameters.h"
 
 namespace nonet::team {
 
@@ -270,6 +271,7 @@ struct TeamParameters {
   AgreementParameters agreement;
   RadioParameters radio;
   TouchParameters touch;
+  VariantParameters variant;
   double avoidDistance = 0.7;
   double onBallRoom = 1.2;
   double keepBallTime = 1.0;
@@ -292,6 +294,7 @@ struct TeamParameters {
     visit.group("agreement", self.agreement);
     visit.group("radio", self.radio);
     visit.group("touch", self.touch);
+    visit.group("variant", self.variant);
     visit({"avoidDistance", Unit::Metre, {0, 5}, search(0.4, 1.5), "Room left to other robots on the way"},
           self.avoidDistance);
     visit({"onBallRoom", Unit::Metre, {0, 5}, search(0.7, 2), "Room left to the team mate on the ball"},
