@@ -171,7 +171,9 @@ TEST(SeriesCommand, KilledAndResumedItEndsInTheSameResult) {
     }
     Program program(arguments, folder.file(name + ".txt"));
     ASSERT_EQ(program.wait(), 0) << program.output();
-    if (name == "killed") EXPECT_THAT(program.output(), HasSubstr("resumed: "));
+    if (name == "killed") {
+      EXPECT_THAT(program.output(), HasSubstr("resumed: "));
+    }
     results[name] = textOf(folder.file(name) + "/matches.jsonl");
     auto result = nlohmann::json::parse(textOf(folder.file(name) + "/result.json"));
     for (const char* key : {"date", "command_line"}) result.erase(key);
