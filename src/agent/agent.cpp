@@ -60,6 +60,10 @@ const world::WorldState& Agent::world() const {
 team::Role Agent::role() const {
   return stages_->behavior.role();
 }
+std::string_view Agent::kick() const {
+  const motion::MotionState& motion = stages_->robot.motion().state();
+  return motion.busy ? motion.kick : std::string_view();
+}
 const team::Action& Agent::action() const {
   return stages_->behavior.action();
 }

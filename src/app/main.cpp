@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   nonet::app::addServeCommand(app, exitCode);
   nonet::app::addMatchCommand(app, exitCode);
   nonet::app::addSeriesCommand(app, exitCode);
+  nonet::app::addTableCommand(app, exitCode);
   nonet::app::addStatisticsCommand(app, exitCode);
   nonet::app::addExplainCommand(app, exitCode);
   nonet::app::addViewCommand(app, exitCode);

@@ -28,6 +28,7 @@ struct MatchArguments {
   bool inProcess = false;
   bool localization = false;
   bool alone = false;
+  bool truth = false;
   std::string json = "logs/match.json";
   std::vector<std::string> settingFiles;
   std::vector<std::string> assignments;
@@ -116,6 +117,7 @@ int runMatch(MatchArguments& arguments) {
   match.left.players = arguments.players;
   match.right.players = arguments.alone ? 0 : arguments.players;
   for (const std::string& file : arguments.settingFiles) match.settings.overlayFile(file);
+  if (arguments.truth) match.settings.senseTruth();
   assign(arguments.assignments, match);
   checkBefore(arguments);
 
@@ -169,6 +171,10 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
   CLI::Option* logs =
       command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
+  command->add_flag(
+      "--truth", arguments->truth,
+      "The server tells each agent where it and the ball are; nobody plays by it, but logs with "
+      "it can be judged by `nonet replay --localization`");
   command->add_flag("--draw", options.draw,
                     "Draw what the agents believe and want on the RoboViz of this machine (UDP port 32769)");
   command->add_option(

@@ -1,101 +1,94 @@
-#include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <thread>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "nonet/app/commands.h"
-#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
-#include "nonet/lab/match/series.h"
+#include "nonet/app/series_run.h"
+#include "nonet/app/team_name.h"
 
 namespace nonet::app {
 namespace {
 
+/// A side as the options give it.
+struct SideArguments {
+  std::string word = "own";
+  std::string binary;
+  lab::SideChoice side;  // name, parameter files and assignments
+};
+
 struct SeriesArguments {
   lab::SeriesChoice choice;
-  std::string a = "own";
-  std::string b = "own";
+  SideArguments a;
+  SideArguments b;
+  std::string where;
+  std::string data;
   std::string out;
   std::string sequential;
   int jobs = 0;
 };
 
-std::atomic<bool> interrupted{false};  // by SIGINT or SIGTERM
-
-lab::SideChoice sideOf(const std::string& word, const lab::SideChoice& options) {
-  lab::SideChoice side = lab::sideFromWord(word);
-  side.name = options.name;
-  side.assignments = options.assignments;
-  for (const std::string& file : options.parameterFiles)
+lab::SideChoice sideOf(const SideArguments& arguments, const std::string& dataFolder) {
+  if (!arguments.binary.empty() && arguments.word != "own")
+    throw std::runtime_error(
+        fmt::format("{}: give the side or an executable for it, not both", arguments.word));
+  lab::SideChoice side =
+      lab::sideFromWord(arguments.binary.empty() ? arguments.word : arguments.binary, dataFolder);
+  side.name = arguments.side.name;
+  side.assignments = arguments.side.assignments;
+  for (const std::string& file : arguments.side.parameterFiles)
     side.parameterFiles.push_back(std::filesystem::absolute(file).string());
   if (!side.command.empty() && (!side.assignments.empty() || !side.parameterFiles.empty()))
-    throw std::runtime_error(fmt::format("{}: a foreign command takes no parameters of ours", word));
+    throw std::runtime_error(
+        fmt::format("{}: a foreign command takes no parameters of ours", arguments.word));
   return side;
 }
 
-/// What the user typed, for the reader of the result.
-std::string commandLine() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string text;
-  for (std::string word; std::getline(file, word, '\0');) {
-    const bool plain = word.find_first_of(" '\"$&|;<>(){}*") == std::string::npos && !word.empty();
-    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
-  }
-  return text;
+/// In this process if that can be.
+std::string placeFor(const SeriesArguments& arguments) {
+  const bool ours = arguments.choice.a.ours() && arguments.choice.b.ours();
+  if (arguments.where.empty()) return ours ? "process" : "tcp";
+  if (arguments.where == "process" && !ours)
+    throw std::runtime_error(
+        "in one process only this program can play: --where tcp, or leave the option out");
+  return arguments.where;
 }
 
 int runSeries(SeriesArguments& arguments) {
   lab::SeriesChoice& choice = arguments.choice;
-  choice.a = sideOf(arguments.a, choice.a);
-  choice.b = sideOf(arguments.b, choice.b);
+  const std::string data = std::filesystem::absolute(dataFolder(arguments.data)).string();
+  choice.a = sideOf(arguments.a, data);
+  choice.b = sideOf(arguments.b, data);
   if (choice.a.name == choice.b.name)
     throw std::runtime_error("the teams need different names (--a-name, --b-name)");
+  for (const std::string& name : {choice.a.name, choice.b.name}) checkTeamName(name);
   if (!arguments.sequential.empty()) choice.sequential = lab::parseSequentialBounds(arguments.sequential);
-  if (!choice.a.ours() || !choice.b.ours())
-    throw std::runtime_error("in one process only this program can play: give own or a data folder");
-  choice.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
-  choice.version = NONET_VERSION;
+  choice.place = placeFor(arguments);
   choice.commandLine = commandLine();
-  for (lab::SideChoice* side : {&choice.a, &choice.b})
-    side->fingerprint = lab::fingerprintOf(*side, dataFolder());
   if (arguments.out.empty())
     arguments.out = fmt::format("logs/series-{:%Y%m%d-%H%M%S}", fmt::gmtime(std::time(nullptr)));
 
-  spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   Console console;
-  lab::Series series(arguments.out, choice);
-  lab::writeOverlays(choice, arguments.out, dataFolder());
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int jobs = arguments.jobs > 0 ? arguments.jobs : cores;
-  console.say(fmt::format("{} pairs, seeds {} to {}, {} games at a time, in {}", choice.pairs, choice.seed,
-                          choice.seed + static_cast<std::uint64_t>(choice.pairs) - 1, jobs, arguments.out));
-  if (series.played() > 0) console.say(fmt::format("resumed: {} games are there", series.played()));
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = true; });
-  const bool complete =
-      lab::playSeries(series, jobs, lab::inProcessGames(series.choice(), arguments.out, dataFolder()),
-                      [&](const lab::SeriesProgress& progress) {
-                        if (console.due()) console.progress(progress.line(series.choice()));
-                        return !interrupted;
-                      });
-  console.end();
-  if (!complete) {
+  const SeriesRun run = playSeries(choice, arguments.out, arguments.jobs, data, console, "");
+  const lab::Series& series = *run.series;
+  if (!run.complete) {
     fmt::print("{}stopped; the same command goes on (--out {})\n", series.result().toText(series.choice()),
                arguments.out);
     return 1;
   }
-  fmt::print("{}result in {}/result.json\n", series.finish().toText(series.choice()), arguments.out);
+  fmt::print("{}result in {}/result.json\n", run.result.toText(series.choice()), arguments.out);
   return 0;
 }
 
 void addSideOptions(CLI::App& command, const std::string& letter, const std::string& alias,
-                    lab::SideChoice& side) {
+                    SideArguments& arguments) {
+  lab::SideChoice& side = arguments.side;
+  command
+      .add_option(fmt::format("--{}-binary,--{}-binary", letter, alias), arguments.binary,
+                  fmt::format("Another executable of Nonet for side {}, of an older commit say", letter))
+      ->check(CLI::ExistingFile);
   command
       .add_option(fmt::format("--{}-set,--{}-set", letter, alias), side.assignments,
                   fmt::format("Parameters of side {}, key=value", letter))
@@ -116,13 +109,27 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
       "series", "Many paired games between two sides, until it is clear which is stronger");
   auto arguments = std::make_shared<SeriesArguments>();
   lab::SeriesChoice& choice = arguments->choice;
-  choice.a.name = "A";
-  choice.b.name = "B";
-  command->add_option("A", arguments->a, "Side A: own, or a folder with params/ and skills/")
+  arguments->a.side.name = "A";
+  arguments->b.side.name = "B";
+  command
+      ->add_option("A", arguments->a.word,
+                   "Side A: own, a variant (params/variants/), a folder with params/ and skills/, an "
+                   "executable of Nonet, or a shell command with {port} in it that starts agents")
       ->capture_default_str();
-  command->add_option("B", arguments->b, "Side B, likewise")->capture_default_str();
-  addSideOptions(*command, "a", "left", choice.a);
-  addSideOptions(*command, "b", "right", choice.b);
+  command->add_option("B", arguments->b.word, "Side B, likewise")->capture_default_str();
+  addSideOptions(*command, "a", "left", arguments->a);
+  addSideOptions(*command, "b", "right", arguments->b);
+  command->add_option(
+      "--where", arguments->where,
+      "process: all in this process (the default if it can be); tcp: the embedded server in lock-step, every "
+      "agent a process; realtime: the same by the clock, for agents that do not send (syn); or "
+      "HOST:PORT:MONITORPORT of a server that runs");
+  command->add_option(
+      "--server-command", choice.serverCommand,
+      "Shell command that starts that server before each game: {port} {monitor} {seed} {half} "
+      "(seconds of a half)");
+  command->add_option("--data", arguments->data, "Folder with params/ and skills/ of this program's sides")
+      ->check(CLI::ExistingDirectory);
   command->add_option("--pairs", choice.pairs, "Pairs of games, at most if --sprt is given")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
@@ -143,6 +150,9 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
   command->add_option("--jobs", arguments->jobs, "Games at a time, 0: one per core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
+  command->add_flag(
+      "--monitor-logs", choice.monitorLogs,
+      "Keep the monitor stream of each game for `nonet view`, game-PAIR-GAME.mon in the folder");
   command->add_option("--out", arguments->out, "Folder; a series that is there already goes on");
   command->add_option("--settings", choice.settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
@@ -150,9 +160,15 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
   command->footer(
       "A pair is two games from one seed with the sides exchanged; A plays left in the first.\n"
       "Examples:\n"
-      "  nonet series own ../before --pairs 50 --out logs/now-before\n"
+      "  nonet series own wall --pairs 10 --minutes 4\n"
       "  nonet series own own --b-set team.formation.stopperBehind=3 --sprt 0,0.5 --pairs 500\n"
-      "  nonet series team-new/ team-old/ --minutes 4 --jobs 8\n"
+      "  nonet series own ../before --pairs 50 --out logs/now-before          other data, same program\n"
+      "  nonet series own --b-binary ../before/build/release/nonet            an older program\n"
+      "  nonet series own 'cd ~/others && ./start.sh {host} {port} {team}' --where realtime --jobs 1\n"
+      "  nonet series own wall --where localhost:3100:3200                    on a server that runs\n"
+      "In a shell command {host} {port} {monitor} {team} {players} {seed} {folder} (of this game, for logs) "
+      "are "
+      "filled in. What it starts is stopped after the game.\n"
       "A killed series goes on with the same command and --out, and ends in the same files.\n"
       "Exit codes: 0 complete, 1 not.");
   command->callback([arguments, &exitCode] { exitCode = runSeries(*arguments); });

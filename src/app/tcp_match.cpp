@@ -3,7 +3,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -16,8 +15,8 @@
 #include <unistd.h>
 
 #include "nonet/app/agent_processes.h"
-#include "nonet/app/data_folder.h"
 #include "nonet/app/play_client.h"
+#include "nonet/app/play_command_line.h"
 #include "nonet/sim/server/server.h"
 
 namespace nonet::app {
@@ -130,23 +129,14 @@ class TcpMatch {
   void startAgents() {
     for (const lab::PlayerRecord& player : watcher_.result().players) {
       const agent::AgentChoice agent = lab::agentChoice(options_.match, player.rightTeam, player.unum);
-      // Nothing but the messages may decide what an agent sends.
-      std::vector<std::string> command = {executablePath(), "play", "--host",   "127.0.0.1",
-                                          "--sync",         "on",   "--at-once"};
       const lab::TeamChoice& team = player.rightTeam ? options_.match.right : options_.match.left;
+      std::vector<std::string> command = playCommand(
+          PlayProgram(), agent,
+          {"127.0.0.1", server_.agentPort(), true, team.dataFolder, folder_.file(nameOf(player) + ".json")});
       const auto add = [&](const std::string& option, const std::string& value) {
         command.push_back(option);
         command.push_back(value);
       };
-      add("--port", std::to_string(server_.agentPort()));
-      add("--unum", std::to_string(agent.unum));
-      add("--team", agent.team);
-      add("--type", std::to_string(agent.robotType));
-      add("--seed", std::to_string(agent.seed));
-      add("--report", folder_.file(nameOf(player) + ".json"));
-      for (const std::string& file : agent.parameterFiles) add("--params", file);
-      for (const std::string& assignment : agent.assignments) add("--set", assignment);
-      if (!team.dataFolder.empty()) add("--data", team.dataFolder);
       if (!options_.logs.empty())
         add("--record", (fs::path(options_.logs) / (nameOf(player) + ".zst")).string());
       if (options_.draw) command.emplace_back("--draw");
@@ -190,15 +180,8 @@ class TcpMatch {
 
   /// Empty for an agent that ended because the server did.
   static std::string endedBy(const AgentProcesses::Process& process) {
-    if (process.signal != 0)
-      return fmt::format("killed by signal {} ({})", process.signal, ::strsignal(process.signal));
-    if (process.exitCode == static_cast<int>(PlayExit::ServerGone)) return "";
-    std::string last;
-    std::ifstream output(process.output);
-    for (std::string line; std::getline(output, line);) {
-      if (!line.empty()) last = line;
-    }
-    return fmt::format("exit code {}: {}", process.exitCode, last);
+    const bool serverGone = process.signal == 0 && process.exitCode == static_cast<int>(PlayExit::ServerGone);
+    return serverGone ? "" : endingOf(process);
   }
 
   std::string reasons() const {

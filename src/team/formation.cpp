@@ -22,13 +22,14 @@ struct PlaceRules {
   const Formation& formation;
   const world::FieldGeometry& field;
   const FormationParameters& parameters;
+  bool backsBehindBall = true;
 
   bool allows(int index, const Vector2& place) const {
     const Role role = static_cast<Role>(index);
     const bool back = role == Role::BackLeft || role == Role::BackRight;
     if (role != Role::BackLeft && inOwnArea(place, parameters.areaMargin)) return false;
     const bool atOwnGoal = role == Role::BackRight && inOwnArea(formation.positions[0], 0.0);
-    if (back && !atOwnGoal && beyondBall(place)) return false;
+    if (backsBehindBall && back && !atOwnGoal && beyondBall(place)) return false;
     for (int j = 0; j < index; ++j)
       if ((place - formation.positions[j]).norm() < parameters.apart) return false;
     return true;
@@ -48,12 +49,13 @@ struct PlaceRules {
 
 // Near the lines and the own goal places come together: the less important one takes the nearest place that
 // is free.
-void spread(Formation& formation, const world::FieldGeometry& field, const FormationParameters& parameters) {
+void spread(Formation& formation, const world::FieldGeometry& field, const FormationParameters& parameters,
+            bool backsBehindBall) {
   // A grid that is fine enough; no play depends on its step.
   constexpr double kRing = 0.25;  // m
   constexpr int kRings = 20;
   constexpr int kDirections = 16;
-  const PlaceRules rules{formation, field, parameters};
+  const PlaceRules rules{formation, field, parameters, backsBehindBall};
   for (int i = 1; i < formation.count; ++i) {  // the one on the ball follows it to the line
     const Vector2 wanted = insideField(formation.positions[i], field, parameters.touchLineMargin);
     formation.positions[i] = wanted;
@@ -69,11 +71,8 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
   }
 }
 
-}  // namespace
-
-Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
-                       const FormationParameters& parameters) {
-  assert(count >= 0 && count <= kMaxAssigned);
+std::array<Vector2, kMaxAssigned> usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
+                                              const FormationParameters& parameters) {
   const Vector2 ownGoal(-0.5 * field.length, 0.0);
   const Vector2 goalToBall = p_FB - ownGoal;
   const double distance = std::max(goalToBall.norm(), 1e-6);
@@ -83,7 +82,7 @@ Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometr
   const double nearBack = std::min(parameters.firstBackFromGoal, 0.5 * distance);
   const double farBack = std::min(parameters.secondBackFromGoal, 0.75 * distance);
 
-  const std::array<Vector2, kMaxAssigned> wanted = {
+  return {
       p_FB,
       p_FB - parameters.stopperBehind * along,
       ownGoal + nearBack * along + parameters.backAside * aside,
@@ -95,11 +94,20 @@ Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometr
       p_FB - parameters.supporterBehind * along,
       ownGoal + 0.5 * (nearBack + farBack) * along,
   };
+}
+
+}  // namespace
+
+Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
+                       const FormationParameters& parameters, const VariantParameters& variant) {
+  assert(count >= 0 && count <= kMaxAssigned);
+  const auto other = variantPlaces(p_FB, field, parameters, variant);
+  const std::array<Vector2, kMaxAssigned> wanted = other ? *other : usualPlaces(p_FB, field, parameters);
 
   Formation formation;
   formation.count = count;
   for (int i = 0; i < count; ++i) formation.positions[i] = wanted[i];
-  spread(formation, field, parameters);
+  spread(formation, field, parameters, !other);
   return formation;
 }
 

@@ -21,6 +21,17 @@ int playerOnBall(const protocol::RoleVote& vote) {
   return static_cast<int>(found - vote.begin()) + kFirstField;
 }
 
+// Everybody has the role of its number, but the one on the ball. There is one number more than roles, so the
+// last one takes the role that is left.
+protocol::RoleVote fixedVote(int onBall) {
+  protocol::RoleVote vote{};
+  const auto ball = static_cast<std::size_t>(onBall - kFirstField);
+  for (std::size_t i = 0; i < vote.size(); ++i) vote[i] = static_cast<std::uint8_t>(i + 1);
+  vote.back() = static_cast<std::uint8_t>(ball + 1);
+  vote[ball] = static_cast<std::uint8_t>(Role::OnBall);
+  return vote;
+}
+
 }  // namespace
 
 void RoleVoting::update(const Situation& situation, int banned) {
@@ -34,6 +45,10 @@ void RoleVoting::update(const Situation& situation, int banned) {
   }
   inOwnSlot_ = inOwnSlot;
   count(situation, banned);
+  if (situation.parameters.variant.allBall) {
+    onBall_ = world.game.unum;
+    role_ = Role::OnBall;
+  }
 }
 
 void RoleVoting::vote(const Situation& situation, int banned) {
@@ -70,6 +85,10 @@ void RoleVoting::vote(const Situation& situation, int banned) {
       vote[index[others]] = static_cast<std::uint8_t>(Role::OnBall);
     else
       places[others++] = squad.places[i];
+  }
+  if (situation.parameters.variant.fixedRoles) {
+    vote_ = fixedVote(squad.unums[onBall]);
+    return;
   }
   const Assignment assignment =
       assigner_.assign({places.data(), others}, {situation.formation.positions.data() + 1, others});

@@ -29,13 +29,19 @@ Formation placesFor(const world::WorldState& world, const TeamParameters& parame
     formation.stopperBehind =
         std::max(formation.stopperBehind, parameters.clearOfOpponentKick + formation.apart);
   }
-  return formationFor(world.ball.p_FB.head<2>(), kMaxAssigned, world.field, formation);
+  return formationFor(world.ball.p_FB.head<2>(), kMaxAssigned, world.field, formation, parameters.variant);
 }
 
 // Out of the way of the goal, to the side on which the ball is.
 Vector2 clearanceTarget(const Situation& s) {
   const double aside = s.parameters.goalie.clearanceAside;
   return {0.0, s.ball().y() >= 0.0 ? aside : -aside};
+}
+
+// Straight away from the own goal.
+Vector2 awayTarget(const Situation& s) {
+  const Vector2 ownGoal(-0.5 * s.world.field.length, 0.0);
+  return s.ball() + s.parameters.variant.clearLength * (s.ball() - ownGoal).normalized();
 }
 
 bool receiverReady(const Situation& s) {
@@ -140,6 +146,8 @@ std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {
     return playTowards(s, s.setPlay->p_FTarget, use, wait);
   }
   if (!s.mayTouch) return std::nullopt;
+  if (s.parameters.variant.clearFirst && s.ball().x() < 0.0)
+    return playTowards(s, awayTarget(s), KickUse::Clear);
   if (!s.parameters.choice.use || s.phase() != world::Phase::PlayOn) {
     BallPlay play = playTowards(s, s.p_FTarget, KickUse::IfFree);
     play.candidates = s.targets;

@@ -1,10 +1,15 @@
 // A series from the command line, and the page about it.
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
 
 #include "app/browser.h"
 #include "app/program.h"
@@ -50,6 +55,150 @@ TEST(SeriesCommand, PlaysPairsAndReportsThem) {
     EXPECT_GT(picture.share([](int r, int g, int b) { return r < 100 && g < 100 && b < 100; }), 0.002)
         << "text is drawn";
   }
+}
+
+std::string textOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What is the same wherever the games are played: everything but who knows roles and names of kicks.
+std::vector<std::string> signatures(const std::string& folder) {
+  std::vector<std::string> found;
+  std::ifstream file(folder + "/matches.jsonl");
+  for (std::string line; std::getline(file, line);) {
+    const auto json = nlohmann::json::parse(line);
+    found.push_back(json.value("signature", "") + " " + json.at("score_a").dump() + ":" +
+                    json.at("score_b").dump());
+  }
+  return found;
+}
+
+const std::vector<std::string> kShort = {"--pairs", "1", "--minutes",       "0.05", "--players", "2",
+                                         "--jobs",  "2", "--kick-off-wait", "1"};
+
+std::vector<std::string> seriesOf(const std::vector<std::string>& more, const std::string& out) {
+  std::vector<std::string> arguments = {"series"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  arguments.insert(arguments.end(), kShort.begin(), kShort.end());
+  arguments.insert(arguments.end(), {"--out", out});
+  return arguments;
+}
+
+// This very executable stands in for an older one: the games over TCP are then those in this process.
+TEST(SeriesCommand, AnotherExecutablePlaysOverTcp) {
+  const TestFolder folder("nonet_series_binary");
+  const std::string here = folder.file("here");
+  const std::string there = folder.file("there");
+  Program process(seriesOf({"own", "own"}, here), folder.file("1.txt"));
+  ASSERT_EQ(process.wait(), 0) << process.output();
+  Program tcp(seriesOf({"own", "--b-binary", NONET_BINARY}, there), folder.file("2.txt"));
+  ASSERT_EQ(tcp.wait(), 0) << tcp.output();
+  EXPECT_EQ(signatures(there), signatures(here));
+  const auto result = nlohmann::json::parse(textOf(there + "/result.json"));
+  EXPECT_EQ(result.at("place"), "tcp");
+  EXPECT_EQ(result.at("crashed"), nlohmann::json({0, 0}));
+  EXPECT_EQ(result.at("gone"), nlohmann::json({0, 0}));
+  EXPECT_THAT(textOf(there + "/times.jsonl"), HasSubstr("\"late_b\":0"));
+}
+
+// Foreign agents are started by a shell command, in the background, as teams of the league do; all of them
+// are stopped afterwards.
+TEST(SeriesCommand, AShellCommandStartsForeignAgents) {
+  const TestFolder folder("nonet_series_command");
+  const std::string out = folder.file("games");
+  const std::string command = std::string("for i in 1 2; do setsid ") + NONET_BINARY +
+                              " play --port {port} --team {team} --unum $i --type $((4*(i-1))) --sync on "
+                              ">/dev/null 2>&1 </dev/null & done; sleep 600 & echo $! > " +
+                              folder.file("pid");
+  Program series(seriesOf({"own", command}, out), folder.file("1.txt"));
+  ASSERT_EQ(series.wait(), 0) << series.output();
+  EXPECT_EQ(signatures(out).size(), 2U);
+  const int left = std::stoi(textOf(folder.file("pid")));
+  EXPECT_EQ(textOf("/proc/" + std::to_string(left) + "/cmdline"), "") << "what the command started is gone";
+}
+
+TEST(SeriesCommand, ACommandThatStartsNobodyIsToldWithItsWords) {
+  const TestFolder folder("nonet_series_nobody");
+  Program series(seriesOf({"own", "echo no such team on {port}; exit 3"}, folder.file("games")),
+                 folder.file("1.txt"));
+  EXPECT_EQ(series.wait(), 1);
+  EXPECT_THAT(series.output(), HasSubstr("exit code 3: no such team on"));
+  Program wrong(seriesOf({"own", "--b-binary", "/bin/true"}, folder.file("other")), folder.file("2.txt"));
+  EXPECT_EQ(wrong.wait(), 1);
+  EXPECT_THAT(wrong.output(), HasSubstr("is no executable of Nonet"));
+}
+
+// Kicked off through its monitor port, counted from its monitor stream; the second game on the same server
+// begins at 0 : 0 again.
+TEST(SeriesCommand, PlaysOnAServerThatRuns) {
+  const TestFolder folder("nonet_series_server");
+  Program server({"serve", "--sync", "--port", "0", "--monitor-port", "0"}, folder.file("server.txt"));
+  ASSERT_TRUE(server.says("agents on port \\d+, monitors on port \\d+"));
+  const std::string text = server.output();
+  std::smatch ports;
+  ASSERT_TRUE(std::regex_search(text, ports, std::regex("agents on port (\\d+), monitors on port (\\d+)")));
+  const std::string out = folder.file("games");
+  Program series(
+      seriesOf({"own", "own", "--where", "127.0.0.1:" + ports[1].str() + ":" + ports[2].str()}, out),
+      folder.file("1.txt"));
+  ASSERT_EQ(series.wait(), 0) << series.output();
+  ASSERT_EQ(signatures(out).size(), 2U);
+  std::ifstream file(out + "/matches.jsonl");
+  for (std::string line; std::getline(file, line);) {
+    const auto game = nlohmann::json::parse(line);
+    EXPECT_NEAR(game.at("game_time_s").get<double>(), 3.0, 0.5);
+    const auto& teams = game.at("statistics").at("teams");
+    for (const auto& team : teams) EXPECT_EQ(team.at("players").size(), 2U);
+  }
+  EXPECT_TRUE(server.running());
+}
+
+// SIGKILL in the middle, then the same command again: the same files as without.
+TEST(SeriesCommand, KilledAndResumedItEndsInTheSameResult) {
+  const TestFolder folder("nonet_series_kill");
+  std::map<std::string, std::string> results;
+  for (const std::string name : {"whole", "killed"}) {
+    const std::vector<std::string> arguments = {
+        "series",    "own",   "no-kick",         "--pairs",   "3",
+        "--minutes", "0.1",   "--kick-off-wait", "1",         "--jobs",
+        "1",         "--out", folder.file(name), "--players", "2"};
+    if (name == "killed") {
+      Program first(arguments, folder.file("first.txt"));
+      ASSERT_TRUE(Program::fileSays(folder.file(name) + "/matches.jsonl", "\"pair\":1,\"game\":2"));
+      ASSERT_EQ(::kill(first.pid(), SIGKILL), 0);
+      EXPECT_EQ(first.wait(), -1);
+    }
+    Program program(arguments, folder.file(name + ".txt"));
+    ASSERT_EQ(program.wait(), 0) << program.output();
+    if (name == "killed") {
+      EXPECT_THAT(program.output(), HasSubstr("resumed: "));
+    }
+    results[name] = textOf(folder.file(name) + "/matches.jsonl");
+    auto result = nlohmann::json::parse(textOf(folder.file(name) + "/result.json"));
+    for (const char* key : {"date", "command_line"}) result.erase(key);
+    results[name] += result.dump();
+  }
+  EXPECT_EQ(results["whole"], results["killed"]);
+}
+
+TEST(TableCommand, PlaysAFileAndGoesOnWithIt) {
+  const TestFolder folder("nonet_table");
+  std::ofstream(folder.file("t.toml")) << "title = 'Two variants'\nagainst = 'full'\npairs = 1\n"
+                                          "minutes = 0.05\nplayers = 2\nkickOffWait = 1\n"
+                                          "[[side]]\nname = 'full'\nside = 'own'\n"
+                                          "[[side]]\nname = 'boxes'\n[[side]]\nname = 'no-kick'\n";
+  const std::vector<std::string> arguments = {"table", folder.file("t.toml"), "--out", folder.file("out")};
+  Program first(arguments, folder.file("1.txt"));
+  ASSERT_EQ(first.wait(), 0) << first.output();
+  EXPECT_THAT(first.output(), HasSubstr("Two variants"));
+  EXPECT_THAT(first.output(), HasSubstr("\nboxes"));
+  const auto table = nlohmann::json::parse(textOf(folder.file("out/table.json")));
+  EXPECT_EQ(table.at("entries").size(), 2U);
+  EXPECT_EQ(table.at("entries").at(1).at("games"), 2);
+  Program again(arguments, folder.file("2.txt"));
+  ASSERT_EQ(again.wait(), 0);
+  EXPECT_THAT(again.output(), HasSubstr("resumed: 2 games are there"));
 }
 
 TEST(SeriesCommand, ReportWantsAFinishedSeries) {

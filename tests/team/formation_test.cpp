@@ -1,5 +1,8 @@
 #include "nonet/team/formation.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "nonet/math/random.h"
@@ -76,6 +79,67 @@ TEST(Formation, LeavesRoomBetweenThePlacesAlsoNearLinesAndGoals) {
       }
     }
   }
+}
+
+std::vector<VariantParameters> formationVariants() {
+  std::vector<VariantParameters> variants(3);
+  variants[0].defense = true;
+  variants[1].boxes = true;
+  variants[2].wall = true;
+  return variants;
+}
+
+TEST(FormationVariants, AreLegalAndLeaveRoomWhereverTheBallIs) {
+  const world::FieldGeometry field;
+  FormationParameters parameters;
+  parameters.apart = 0.7;
+  for (const VariantParameters& variant : formationVariants()) {
+    for (double x = -14.5; x <= 14.5; x += 1.0) {
+      for (double y = -9.5; y <= 9.5; y += 1.0) {
+        const Formation formation = formationFor({x, y}, 8, field, parameters, variant);
+        EXPECT_EQ(formation.positions[0], Vector2(x, y)) << "one is on the ball";
+        int inOwnArea = 0;
+        for (int i = 1; i < formation.count; ++i) {
+          const Vector2 place = formation.positions[i];
+          EXPECT_LE(std::abs(place.x()), 15.0);
+          EXPECT_LE(std::abs(place.y()), 10.0);
+          inOwnArea += place.x() < -13.2 && std::abs(place.y()) < 3.0 ? 1 : 0;
+          for (int j = 1; j < i; ++j) EXPECT_GT((place - formation.positions[j]).norm(), 0.65);
+        }
+        EXPECT_LE(inOwnArea, 1) << "ball at " << x << " " << y;
+      }
+    }
+  }
+}
+
+// What the names promise, with the ball in midfield where nothing has to give way.
+TEST(FormationVariants, AreWhatTheirNamesSay) {
+  const world::FieldGeometry field;
+  const std::vector<VariantParameters> variants = formationVariants();
+  FormationParameters parameters;
+  parameters.apart = 0.7;
+  const Vector2 ball(2.0, 3.0);
+  const auto near = [](const Formation& formation, const Vector2& place, double reach) {
+    return std::count_if(formation.positions.begin(), formation.positions.begin() + formation.count,
+                         [&](const Vector2& p) { return (p - place).norm() < reach; });
+  };
+  const Formation defense = formationFor(ball, 8, field, parameters, variants[0]);
+  EXPECT_EQ(near(defense, ball, 4.0), 2) << "on the ball and behind it";
+  EXPECT_EQ(near(defense, {-15.0, 0.0}, 10.0), 6);
+
+  const Formation wall = formationFor(ball, 8, field, parameters, variants[2]);
+  EXPECT_EQ(near(wall, ball, 1.2), 3);
+  for (int i = 1; i < wall.count; ++i) {
+    const Vector2 way = ball - Vector2(-15.0, 0.0);
+    const double along = (wall.positions[i] - Vector2(-15.0, 0.0)).dot(way) / way.squaredNorm();
+    EXPECT_GT(along, 0.0);
+    EXPECT_LT(along, 1.0) << "between ball and goal";
+  }
+
+  // The boxes stay where they are: a ball that moves by 1 m moves no place by more than half of that.
+  const Formation boxes = formationFor(ball, 8, field, parameters, variants[1]);
+  const Formation moved = formationFor(ball + Vector2(1.0, 0.0), 8, field, parameters, variants[1]);
+  for (int i = 1; i < boxes.count; ++i) EXPECT_LE((boxes.positions[i] - moved.positions[i]).norm(), 0.51);
 }
 
 TEST(KickOffPose, IsInTheOwnHalfAndOutsideTheCircleForTheOtherSide) {

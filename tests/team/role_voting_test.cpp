@@ -63,8 +63,11 @@ class Team {
   }
   Vector2& place(int unum) { return places_[static_cast<std::size_t>(unum - kFirst)]; }
 
+  Role roleOf(int unum) const { return voting_[static_cast<std::size_t>(unum - kFirst)]->role(); }
+
   Vector2 ball = Vector2(1.0, 1.0);
   int banned = 0;
+  VariantParameters& variant() { return parameters_.variant; }
 
  private:
   void look(std::size_t i, world::WorldState& world) {
@@ -101,6 +104,28 @@ TEST(RoleVoting, EverybodyAgreesWithinARoundThoughViewsDiffer) {
     const std::multiset<Role> roles = team.roles();
     EXPECT_EQ(std::set<Role>(roles.begin(), roles.end()).size(), roles.size()) << "seed " << seed;
   }
+}
+
+TEST(RoleVoting, WithFixedRolesTheNearestTakesTheBallAndTheOthersStay) {
+  Team team(5);
+  team.variant().fixedRoles = true;
+  for (const int nearest : {3, 8}) {
+    for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+    team.place(nearest) = team.ball + Vector2(-0.6, 0.0);
+    team.run(3.0);
+    EXPECT_EQ(team.agreedOnBall(), nearest);
+    for (int unum = kFirst; unum <= kLast; ++unum) {
+      const Role own = unum == nearest ? Role::OnBall : static_cast<Role>(unum - 1);
+      EXPECT_EQ(team.roleOf(unum), own) << unum;
+    }
+  }
+}
+
+TEST(RoleVoting, WithoutFormationEverybodyIsOnTheBall) {
+  Team team(5);
+  team.variant().allBall = true;
+  team.run(1.0);
+  for (const Role role : team.roles()) EXPECT_EQ(role, Role::OnBall);
 }
 
 TEST(RoleVoting, KeepsThePlayerOnTheBallAgainstSmallDifferences) {

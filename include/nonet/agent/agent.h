@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "nonet/agent/parameters.h"
 #include "nonet/agent/robot.h"
@@ -46,6 +47,8 @@ class Agent {
   /// What it believes, for measurements and drawings.
   const world::WorldState& world() const;
   team::Role role() const;
+  /// Name of the kick that the body carries out; empty: none. Valid as long as the agent.
+  std::string_view kick() const;
   /// What it decided in the last step, and why. With recordCandidates also what it weighed.
   const team::Action& action() const;
   void recordCandidates(bool on);

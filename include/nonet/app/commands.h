@@ -10,6 +10,7 @@ void addPlayCommand(CLI::App& app, int& exitCode);
 void addServeCommand(CLI::App& app, int& exitCode);
 void addMatchCommand(CLI::App& app, int& exitCode);
 void addSeriesCommand(CLI::App& app, int& exitCode);
+void addTableCommand(CLI::App& app, int& exitCode);
 void addStatisticsCommand(CLI::App& app, int& exitCode);
 void addExplainCommand(CLI::App& app, int& exitCode);
 void addViewCommand(CLI::App& app, int& exitCode);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <mutex>
 #include <string>
 
@@ -9,7 +10,8 @@ namespace nonet::app {
 
 class Console {
  public:
-  Console();
+  /// `out`: stderr for a command whose standard output is for programs.
+  explicit Console(std::FILE* out = stdout);
 
   /// Shows `line` in place of the last progress. At most four times a second on a terminal; elsewhere (a
   /// file, CI) every ten seconds as a line of its own.
@@ -24,6 +26,7 @@ class Console {
  private:
   using Clock = std::chrono::steady_clock;
 
+  std::FILE* out_;
   bool terminal_ = false;
   bool shown_ = false;
   Clock::time_point next_;

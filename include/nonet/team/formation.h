@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "nonet/math/pose2.h"
 #include "nonet/team/parameters.h"
@@ -31,9 +32,16 @@ struct Formation {
   int count = 0;
 };
 
-/// Positions of `count` field players (all but the goalie) when the ball is at p_FB.
+/// Positions of `count` field players (all but the goalie) when the ball is at p_FB. `variant` may ask for
+/// another formation than the team's own (formation_variants.cpp).
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
-                       const FormationParameters& parameters);
+                       const FormationParameters& parameters, const VariantParameters& variant = {});
+
+/// The places that a variant wants, before they are spread; nothing if it leaves the formation as it is.
+std::optional<std::array<Vector2, kMaxAssigned>> variantPlaces(const Vector2& p_FB,
+                                                               const world::FieldGeometry& field,
+                                                               const FormationParameters& parameters,
+                                                               const VariantParameters& variant);
 
 /// Where player `unum` beams to before a kick-off; everybody is in the own half.
 Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,

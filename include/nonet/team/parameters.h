@@ -6,6 +6,7 @@
 #include "nonet/team/challenge_parameters.h"
 #include "nonet/team/choice_parameters.h"
 #include "nonet/team/place_parameters.h"
+#include "nonet/team/variant_parameters.h"
 
 namespace nonet::team {
 
@@ -272,6 +273,7 @@ struct TeamParameters {
   RadioParameters radio;
   TouchParameters touch;
   ChallengeParameters challenge;
+  VariantParameters variant;
   double avoidDistance = 0.7;
   double onBallRoom = 1.2;
   double keepBallTime = 1.0;
@@ -295,6 +297,7 @@ struct TeamParameters {
     visit.group("radio", self.radio);
     visit.group("touch", self.touch);
     visit.group("challenge", self.challenge);
+    visit.group("variant", self.variant);
     visit({"avoidDistance", Unit::Metre, {0, 5}, search(0.4, 1.5), "Room left to other robots on the way"},
           self.avoidDistance);
     visit({"onBallRoom", Unit::Metre, {0, 5}, search(0.7, 2), "Room left to the team mate on the ball"},

@@ -100,6 +100,7 @@ Series::Series(const std::string& folder, const SeriesChoice& choice) : folder_(
     if (same) choice_ = before;
     choice_.pairs = choice.pairs;
     choice_.sequential = choice.sequential;
+    choice_.monitorLogs = choice.monitorLogs;
   }
   writeAtomically(path(kChoice), choice_.toJson().dump(1) + "\n");
   readLines();
@@ -151,6 +152,10 @@ SeriesResult Series::result() const {
       result.losses += goals < 0 ? 1 : 0;
       result.goalsA += record.scoreA();
       result.goalsB += record.scoreB();
+      result.crashedA += record.line.value("crashed_a", 0);
+      result.crashedB += record.line.value("crashed_b", 0);
+      result.goneA += record.line.value("gone_a", 0);
+      result.goneB += record.line.value("gone_b", 0);
       difference += goals;
       seconds += record.gameTime();
     }

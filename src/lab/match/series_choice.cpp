@@ -17,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
+constexpr const char* kVariants = "/params/variants";  // in the data folder
+
 ordered_json sideJson(const SideChoice& side) {
   return {{"name", side.name},
           {"data", side.dataFolder},
@@ -108,11 +110,26 @@ std::string SideChoice::describe() const {
   return text;
 }
 
-SideChoice sideFromWord(const std::string& word) {
+std::vector<std::string> variantsIn(const std::string& dataFolder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(dataFolder + kVariants, error)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+SideChoice sideFromWord(const std::string& word, const std::string& dataFolder) {
   SideChoice side;
   if (word == "own") return side;
   if (word.find("{port}") != std::string::npos) {
     side.command = word;
+    return side;
+  }
+  const std::vector<std::string> variants = variantsIn(dataFolder);
+  if (std::find(variants.begin(), variants.end(), word) != variants.end()) {
+    side.parameterFiles.push_back(dataFolder + kVariants + "/" + word + ".toml");
     return side;
   }
   std::error_code error;
@@ -128,9 +145,9 @@ SideChoice sideFromWord(const std::string& word) {
     return side;
   }
   throw std::runtime_error(fmt::format(
-      "'{}' is no side: expected own, a folder with skills/ and params/, an executable of Nonet, or "
-      "a command that contains {{port}}",
-      word));
+      "'{}' is no side: expected own, a variant ({}), a folder with skills/ and params/, an executable of "
+      "Nonet, or a command that contains {{port}}",
+      word, fmt::join(variants, ", ")));
 }
 
 ordered_json SeriesChoice::toJson() const {
@@ -195,6 +212,8 @@ MatchChoice matchOf(const SeriesChoice& choice, const SeriesGame& game, const st
   match.seed = game.seed;
   match.minutes = choice.minutes;
   match.kickOffWait = choice.kickOffWait;
+  if (choice.monitorLogs)
+    match.monitorLog = fmt::format("{}/game-{}-{}.mon", overlayFolder, game.pair, game.game);
   for (const std::string& file : choice.settingFiles) match.settings.overlayFile(file);
   for (const std::string& assignment : choice.settingAssignments) match.settings.setAssignment(assignment);
   return match;

@@ -49,6 +49,8 @@ ordered_json SeriesResult::toJson(const SeriesChoice& choice) const {
                        {"losses", losses},
                        {"goals_a", goalsA},
                        {"goals_b", goalsB},
+                       {"crashed", {crashedA, crashedB}},
+                       {"gone", {goneA, goneB}},
                        {"difference_per_10_min", difference.mean},
                        {"standard_error", difference.standardError},
                        {"interval_95", {difference.low, difference.high}},
@@ -69,6 +71,9 @@ std::string SeriesResult::toText(const SeriesChoice& choice) const {
   text +=
       fmt::format("goal difference per ten minutes, A minus B: {:+.3f} (standard error {:.3f}), 95 % {}\n",
                   difference.mean, difference.standardError, interval(difference));
+  if (crashedA + crashedB + goneA + goneB > 0)
+    text += fmt::format("agents that crashed {} : {}, players not there at the end of a game {} : {}\n",
+                        crashedA, crashedB, goneA, goneB);
   if (choice.sequential) text += verdictText(*this, choice) + "\n";
   return text;
 }

@@ -153,6 +153,7 @@ PlayGame inProcessGames(const SeriesChoice& choice, const std::string& overlayFo
         MatchObservers observers;
         observers.afterThought = [&](const Thought& thought) {
           frames.setRole(thought.handle, roleName(thought.agent.role()));
+          frames.setKick(thought.handle, thought.agent.kick());
         };
         observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher& watcher) {
           if (const Frame* frame = frames.cycle(simulation)) {

@@ -4,10 +4,19 @@ namespace nonet::lab {
 namespace {
 
 constexpr int kCyclesPerFrame = 5;
+constexpr long kKickShows = 15;  // cycles after the end of a kick in which the ball may show it
 
 }  // namespace
 
+void SimulationFrames::setKick(sim::AgentHandle agent, std::string_view kick) {
+  if (kick.empty()) return;
+  Mind& mind = minds_[agent];
+  mind.kick = kick;
+  mind.kickedAt = cycles_;
+}
+
 const Frame* SimulationFrames::cycle(const sim::Simulation& simulation) {
+  ++cycles_;
   const sim::MatchState& match = simulation.match();
   if (!first_ && !match.teamLeft.empty()) first_ = match.teamLeft;
   const bool swapped = first_ && match.teamLeft.view() != first_->view();
@@ -39,8 +48,11 @@ const Frame* SimulationFrames::cycle(const sim::Simulation& simulation) {
     robot.robotType = agent.robotType;
     robot.p_W = pose.position.cast<double>();
     robot.up = static_cast<double>(pose.rotation(2, 2));
-    const auto role = roles_.find(agent.handle);
-    if (role != roles_.end()) robot.role = role->second;
+    const auto mind = minds_.find(agent.handle);
+    if (mind != minds_.end()) {
+      robot.role = mind->second.role;
+      if (cycles_ - mind->second.kickedAt <= kKickShows) robot.kick = mind->second.kick;
+    }
     frame_.robots.push_back(robot);
   }
   return &frame_;

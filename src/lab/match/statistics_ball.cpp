@@ -88,6 +88,7 @@ void MatchStatistics::touched(const Frame& frame, const FrameRobot& robot, const
         frame.mode != PlayMode::PlayOn || (fromSetPiece_ && frame.time - playSince_ <= kSetPieceTouch);
     touch_->swapped = frame.swapped;
   }
+  if (touch_->kick.empty()) touch_->kick = robot.kick;
   touch_->last = frame.time;
   touch_->p_W = p_W;
   refreshTouch(frame, velocity);
@@ -147,8 +148,20 @@ void MatchStatistics::closeTouch(const std::string& outcome, const Vector2& p_WE
   record.shot = shot;
   record.onTarget = onTarget;
   record.setPiece = touch.setPiece;
+  record.name = touch.kick;
   record.outcome = !outcome.empty() ? outcome : saved ? "saved" : self ? "self" : mate ? "mate" : "opponent";
   team.kicks.push_back(record);
+}
+
+std::map<std::string, KickKind> TeamStatistics::kicksByName() const {
+  std::map<std::string, KickKind> kinds;
+  for (const KickStatistics& kick : kicks) {
+    KickKind& kind = kinds[kick.name];
+    ++kind.count;
+    kind.distance += kick.distance();
+    ++kind.outcomes[kick.outcome];
+  }
+  return kinds;
 }
 
 void MatchStatistics::sampleDuel(const Frame& frame) {

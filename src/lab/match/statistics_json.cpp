@@ -24,6 +24,7 @@ double percent(double part, double whole) {
 ordered_json kickJson(const KickStatistics& kick) {
   return {{"time_s", rounded(kick.time)},
           {"unum", kick.unum},
+          {"name", kick.name},
           {"speed", rounded(kick.speed)},
           {"distance", rounded(kick.distance())},
           {"from", pointJson(kick.from)},
@@ -83,6 +84,11 @@ ordered_json MatchStatistics::teamJson(TeamIndex index) const {
                                 {"longest_s", rounded(piece.longest)}};
   }
   for (const auto& [kind, count] : team.fouls) json["fouls"][kind] = count;
+  json["kicks_by_name"] = ordered_json::object();
+  for (const auto& [name, kind] : team.kicksByName()) {
+    json["kicks_by_name"][name.empty() ? "other" : name] = {
+        {"count", kind.count}, {"mean_m", rounded(kind.distance / kind.count)}, {"outcomes", kind.outcomes}};
+  }
   json["kick_list"] = ordered_json::array();
   for (const KickStatistics& kick : team.kicks) json["kick_list"].push_back(kickJson(kick));
   json["players"] = ordered_json::array();

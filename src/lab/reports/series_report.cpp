@@ -269,6 +269,38 @@ std::string playerTable(const Games& games) {
   return html + "</table>\n";
 }
 
+// Over a monitor stream kicks have no names.
+std::string kickTable(const Games& games) {
+  struct Kind {
+    int count = 0;
+    double distance = 0.0;
+    std::map<std::string, int> outcomes;
+  };
+  std::string html =
+      "<h3>Kicks by name</h3><table><tr><th>side</th><th>kick</th><th>number</th><th>mean m</th>"
+      "<th>outcomes</th></tr>\n";
+  for (const bool sideB : {false, true}) {
+    std::map<std::string, Kind> kinds;
+    for (const json& line : games.lines) {
+      for (const json& kick : Games::team(line, sideB).at("kick_list")) {
+        Kind& kind = kinds[kick.value("name", "")];
+        ++kind.count;
+        kind.distance += kick.at("distance").get<double>();
+        ++kind.outcomes[kick.at("outcome").get<std::string>()];
+      }
+    }
+    for (const auto& [name, kind] : kinds) {
+      std::string outcomes;
+      for (const auto& [outcome, count] : kind.outcomes)
+        outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", outcome, count);
+      html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{}</td></tr>\n",
+                          sideB ? "B" : "A", name.empty() ? "other" : escaped(name), kind.count,
+                          kind.distance / kind.count, outcomes);
+    }
+  }
+  return html + "</table>\n";
+}
+
 }  // namespace
 
 std::string writeSeriesReport(const std::string& folder) {
@@ -283,7 +315,7 @@ std::string writeSeriesReport(const std::string& folder) {
   html += headline(games) + goalTimes(games) + differences(games) + teamTable(games) + places(games);
   html +=
       "<h2>Kicks and the ball's way</h2>\n" + kickFan(games, false) + kickFan(games, true) + ballPath(games);
-  html += playerTable(games) + "</body></html>\n";
+  html += kickTable(games) + playerTable(games) + "</body></html>\n";
   std::string path = folder + "/report.html";
   writeAtomically(path, html);
   return path;

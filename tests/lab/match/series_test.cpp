@@ -1,5 +1,6 @@
 #include "nonet/lab/match/series.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "nonet/agent/agent_setup.h"
+#include "nonet/config/parameters.h"
 #include "nonet/math/random.h"
 
 namespace nonet::lab {
@@ -179,12 +182,42 @@ TEST(Series, AnErrorInAGameEndsTheSeries) {
 }
 
 TEST(Series, SidesAreReadFromWords) {
-  EXPECT_TRUE(sideFromWord("own").ours());
-  EXPECT_EQ(sideFromWord(NONET_SOURCE_DIR).dataFolder, NONET_SOURCE_DIR);
-  EXPECT_EQ(sideFromWord("start.sh {host} {port}").command, "start.sh {host} {port}");
-  EXPECT_EQ(sideFromWord("/bin/sh").executable, "/bin/sh");
-  EXPECT_THROW(sideFromWord("/nowhere/at/all"), std::runtime_error);
-  EXPECT_THROW(sideFromWord("/tmp"), std::runtime_error) << "no skills/ there";
+  const auto side = [](const char* word) { return sideFromWord(word, NONET_SOURCE_DIR); };
+  EXPECT_TRUE(side("own").ours());
+  EXPECT_EQ(side(NONET_SOURCE_DIR).dataFolder, NONET_SOURCE_DIR);
+  EXPECT_EQ(side("start.sh {host} {port}").command, "start.sh {host} {port}");
+  EXPECT_EQ(side("/bin/sh").executable, "/bin/sh");
+  EXPECT_THROW(side("/nowhere/at/all"), std::runtime_error);
+  EXPECT_THROW(side("/tmp"), std::runtime_error) << "no skills/ there";
+}
+
+// Every file there is a team that can play, and another one than the full team.
+TEST(Series, VariantsAreSides) {
+  const std::vector<std::string> names = variantsIn(NONET_SOURCE_DIR);
+  for (const char* name : {"allball", "boxes", "defense", "static", "wall"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  for (const std::string& name : names) {
+    agent::AgentChoice choice;
+    choice.unum = 5;
+    choice.robotType = 3;
+    const auto full = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+    const SideChoice side = sideFromWord(name, NONET_SOURCE_DIR);
+    EXPECT_TRUE(side.ours());
+    choice.parameterFiles = side.parameterFiles;
+    const auto variant = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+    EXPECT_NE(config::toToml(full.parameters), config::toToml(variant.parameters)) << name;
+  }
+}
+
+// The variant without learned walk has the code's own values, whatever was learned.
+TEST(Series, TheInitialWalkIsTheCodesOwn) {
+  agent::AgentChoice choice;
+  choice.unum = 5;
+  choice.robotType = 3;
+  choice.parameterFiles = sideFromWord("initial-walk", NONET_SOURCE_DIR).parameterFiles;
+  const auto variant = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  EXPECT_EQ(config::toToml(variant.parameters.motion.sets.goToTarget),
+            config::toToml(motion::WalkParameters{}));
 }
 
 // The same team on both sides: the second game of a pair is the first with the names exchanged, so that every

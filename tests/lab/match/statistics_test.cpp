@@ -135,6 +135,21 @@ TEST_P(Statistics, APassToAMate) {
   EXPECT_EQ(s.statistics.team(1).passesTried, 0);
 }
 
+TEST_P(Statistics, KicksAreCountedByName) {
+  kickTo(s, 0, 6);
+  s.robot(0, 5, -0.2, 0.0).kick = "kick_power";
+  kickTo(s, 0, 6);
+  kickTo(s, 1, 6);
+  const auto kinds = s.statistics.team(0).kicksByName();
+  ASSERT_TRUE(kinds.contains("kick_power"));
+  const KickKind& named = kinds.at("kick_power");
+  EXPECT_EQ(named.count, 2);
+  EXPECT_NEAR(named.distance / 2.0, 3.2, 0.5);
+  EXPECT_EQ(named.outcomes.at("mate"), 1);
+  EXPECT_EQ(named.outcomes.at("opponent"), 1);
+  EXPECT_EQ(kinds.at("").count, 1) << "the first one, without a name";
+}
+
 TEST_P(Statistics, APassToTheOpponentIsLost) {
   kickTo(s, 1, 6);
   EXPECT_EQ(s.statistics.team(0).passesTried, 1);

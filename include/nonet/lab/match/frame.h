@@ -22,6 +22,7 @@ struct FrameRobot {
   Vector3 p_W = Vector3::Zero();  // torso, world frame: x from the left goal to the right one, m
   double up = 1.0;                // z of the torso's up axis: 1 upright, 0 lying
   std::string_view role;          // empty: not known. Must outlive the statistics (a literal)
+  std::string_view kick;          // that it carries out or has just ended; empty: none, or not known
 };
 
 struct FrameFoul {

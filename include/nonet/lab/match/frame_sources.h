@@ -11,6 +11,7 @@
 
 #include "nonet/lab/match/frame.h"
 #include "nonet/lab/match/statistics.h"
+#include "nonet/protocol/monitor_reader.h"
 #include "nonet/sim/simulation.h"
 
 namespace nonet::lab {
@@ -22,18 +23,25 @@ class SimulationFrames {
   /// otherwise nullptr. Valid until the next call.
   const Frame* cycle(const sim::Simulation& simulation);
   /// What an agent takes for its role at present; kept until it changes. A literal.
-  void setRole(sim::AgentHandle agent, std::string_view role) { roles_[agent] = role; }
+  void setRole(sim::AgentHandle agent, std::string_view role) { minds_[agent].role = role; }
+  /// The kick that an agent carries out in this cycle, if any. Must outlive the frames.
+  void setKick(sim::AgentHandle agent, std::string_view kick);
 
  private:
   Frame frame_;
   std::optional<protocol::TeamName> first_;  // name of team 0
-  std::map<sim::AgentHandle, std::string_view> roles_;
+  struct Mind {                              // of an agent, as far as it is told
+    std::string_view role;
+    std::string_view kick;
+    long kickedAt = 0;  // cycle in which that kick was last carried out
+  };
+  std::map<sim::AgentHandle, Mind> minds_;
+  long cycles_ = 0;
   std::size_t fouls_ = 0;
   int cyclesToNext_ = 0;
 };
 
-/// Follows a monitor stream (server facts 5.1, 5.2) message by message: full scenes name the nodes, the
-/// differences after them keep their order.
+/// Frames of a monitor stream, message by message.
 class MonitorFrames {
  public:
   /// One message. True if it gave a frame; false if it could not be understood, or before the first full
@@ -43,23 +51,16 @@ class MonitorFrames {
   const StatisticsField& field() const { return field_; }
   /// Names of teams 0 and 1; empty as long as unknown.
   const std::array<std::string, 2>& teams() const { return teams_; }
+  /// What the stream says now: half, who plays on which side.
+  const protocol::MonitorGame& game() const { return reader_.game(); }
 
  private:
-  struct Scene;  // what one pass over the nodes finds
+  void takeRobots();
 
-  bool environment(std::string_view text);
-  void predicate(std::string_view name, const std::vector<std::string_view>& values);
-  bool nodes(std::string_view text, bool full);
-
+  protocol::MonitorReader reader_;
   Frame frame_;
   StatisticsField field_;
   std::array<std::string, 2> teams_;
-  std::array<std::string, 2> sides_;  // names of the left and the right team now
-  std::array<int, 2> scores_{};       // of the left and the right team now
-  std::vector<FrameFoul> newFouls_;   // team: 0 left, 1 right
-  std::map<int, int> robotOfNode_;    // number of a torso's node in the scene -> index in frame_.robots
-  std::vector<bool> right_;           // beside frame_.robots
-  int ballNode_ = -1;
 };
 
 /// Reads a monitor log: one message a line, or messages behind their length as on the wire; plain, gzip or

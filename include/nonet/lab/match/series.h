@@ -44,6 +44,10 @@ struct SeriesResult {
   int losses = 0;
   int goalsA = 0;
   int goalsB = 0;
+  int crashedA = 0;  // agents that ended before their game did
+  int crashedB = 0;
+  int goneA = 0;  // players that were not there at the end of a game, crashed or thrown out
+  int goneB = 0;
   PairSummary difference;  // goals of A minus goals of B, per ten minutes
   Verdict verdict = Verdict::Open;
   double logLikelihoodRatio = 0.0;

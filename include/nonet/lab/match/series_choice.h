@@ -26,14 +26,20 @@ struct SideChoice {
 
   /// Can play in this process.
   bool ours() const { return executable.empty() && command.empty(); }
+  /// Its agents are processes of Nonet, this one or another.
+  bool nonet() const { return command.empty(); }
   /// "own", the folder, the executable or the command, and the overlays.
   std::string describe() const;
   friend bool operator==(const SideChoice&, const SideChoice&) = default;
 };
 
-/// What a word of the command line means as a side: "own", a folder with params/ or skills/, an executable
-/// file, or a shell command that contains {port}. Paths become absolute. Throws std::runtime_error.
-SideChoice sideFromWord(const std::string& word);
+/// What a word of the command line means as a side: "own", the name of a variant (a file in params/variants/
+/// of `dataFolder`), a folder with params/ and skills/, an executable file, or a shell command that contains
+/// {port}. Paths become absolute. Throws std::runtime_error.
+SideChoice sideFromWord(const std::string& word, const std::string& dataFolder);
+
+/// Names of the variants there, in alphabetical order.
+std::vector<std::string> variantsIn(const std::string& dataFolder);
 
 /// A hash of what decides how the side plays, as far as files tell: the executable, params/ and skills/, the
 /// parameter files. `dataFolder`: of this program.
@@ -50,8 +56,10 @@ struct SeriesChoice {
   std::vector<std::string> settingFiles;        // of the server
   std::vector<std::string> settingAssignments;  // of the server, Name=Value
   std::optional<SequentialBounds> sequential;
-  std::string place = "process";  // "process", "tcp" (embedded server) or "HOST:PORT:MONITORPORT"
-  std::string serverCommand;      // starts that server before each game; empty: it runs already
+  bool monitorLogs = false;  // keep the monitor stream of each game in the folder, game-PAIR-GAME.mon
+  // "process"; "tcp": embedded server in lock-step, "realtime": by the clock; or "HOST:PORT:MONITORPORT".
+  std::string place = "process";
+  std::string serverCommand;  // starts that server before each game; empty: it runs already
   // For the reader of the result.
   std::string commandLine;
   std::string date;
@@ -60,7 +68,7 @@ struct SeriesChoice {
   nlohmann::ordered_json toJson() const;
   static SeriesChoice fromJson(const nlohmann::ordered_json& json);
   /// Whether a game of the one is a game of the other: everything but the number of pairs, the test, and what
-  /// is for readers.
+  /// is for readers or for the viewer.
   bool sameGames(const SeriesChoice& other) const;
   /// What the difference of one goal in one game is worth in a pair, goals per ten minutes.
   double resolution() const { return 10.0 / (2.0 * minutes); }

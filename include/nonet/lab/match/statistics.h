@@ -67,9 +67,17 @@ struct KickStatistics {
   bool shot = false;
   bool onTarget = false;
   bool setPiece = false;
+  std::string name;     // of the kick in skills/; empty: a push, or not known
   std::string outcome;  // "goal", "saved", "mate", "opponent", "self", "out", "open"
 
   double distance() const { return (to - from).norm(); }
+};
+
+/// All kicks of one name.
+struct KickKind {
+  int count = 0;
+  double distance = 0.0;  // m, all together
+  std::map<std::string, int> outcomes;
 };
 
 struct SetPieceStatistics {
@@ -90,6 +98,9 @@ struct TeamStatistics {
   std::map<std::string, SetPieceStatistics> setPieces;
   std::map<std::string, int> fouls;
   std::map<int, PlayerStatistics> players;  // by number
+
+  /// The kicks by name; "" are those without one.
+  std::map<std::string, KickKind> kicksByName() const;
 };
 
 struct GoalStatistics {
@@ -137,6 +148,7 @@ class MatchStatistics {
     Vector2 velocity = Vector2::Zero();  // at that greatest speed
     bool setPiece = false;
     bool swapped = false;
+    std::string kick;  // name
   };
 
   void newMode(const Frame& frame);

@@ -1,0 +1,178 @@
+#include "nonet/app/series_games.h"
+
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "nonet/lab/match/frame_sources.h"
+#include "nonet/sim/server/server.h"
+
+namespace nonet::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLongestStart = 90.0;  // s until all players must be there
+constexpr double kFarewell = 5.0;       // s for the agents to end after the server has closed
+constexpr long kCyclesBetweenReports = 50;
+
+// A game on the embedded server of this process, agents over TCP.
+class TcpGame {
+ public:
+  TcpGame(const lab::SeriesGame& game, const lab::MatchChoice& match, bool lockStep, SideAgents& agents,
+          const std::function<bool(double)>& goOn)
+      : game_(game),
+        match_(match),
+        lockStep_(lockStep),
+        agents_(agents),
+        goOn_(goOn),
+        watcher_(match),
+        statistics_({match.settings.fieldLength, match.settings.fieldWidth, match.settings.goalWidth}),
+        server_(lab::matchSettings(match), match.seed, serverOptions()) {}
+
+  lab::GameRecord play() {
+    for (const bool rightTeam : {false, true})
+      agents_.start(rightTeam, {"127.0.0.1", server_.agentPort(), server_.monitorPort()}, lockStep_);
+    server_.onCycle([this](const sim::Simulation& simulation) { afterCycle(simulation); });
+    std::thread guard([this] { watchStart(); });
+    server_.run();
+    over_ = true;
+    guard.join();
+    agents_.stop(kFarewell);
+    return record();
+  }
+
+ private:
+  sim::ServerOptions serverOptions() const {
+    sim::ServerOptions options;
+    options.agentPort = 0;
+    options.monitorPort = 0;
+    options.lockStep = lockStep_;
+    options.realTime = !lockStep_;
+    options.players = match_.left.players + match_.right.players;
+    options.monitorLog = match_.monitorLog;
+    options.endWithMatch = true;
+    return options;
+  }
+
+  void afterCycle(const sim::Simulation& simulation) {
+    begun_ = true;
+    watcher_.update(simulation);
+    if (const lab::Frame* frame = frames_.cycle(simulation)) {
+      statistics_.add(*frame);
+      score_ = frame->score;
+    }
+    const lab::MatchResult& result = watcher_.result();
+    if (result.cycles % kCyclesBetweenReports == 0 && !goOn_(result.gameTime)) server_.stop();
+    if (simulation.agents().empty()) {
+      trouble_ = "all players have left";
+      server_.stop();
+    }
+  }
+
+  // In a thread of its own: ends what cannot begin.
+  void watchStart() {
+    const auto start = Clock::now();
+    while (!over_ && !begun_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      std::string trouble = agents_.trouble();
+      if (trouble.empty() && std::chrono::duration<double>(Clock::now() - start).count() > kLongestStart)
+        trouble = fmt::format("not all {} players came within {} s",
+                              match_.left.players + match_.right.players, kLongestStart);
+      if (trouble.empty() && goOn_(0.0)) continue;
+      if (begun_) break;
+      trouble_ = trouble;
+      server_.stop();
+      break;
+    }
+  }
+
+  lab::GameRecord record() {
+    const lab::MatchResult result = watcher_.finish(server_.simulation());
+    if (!result.finished && goOn_(result.gameTime))
+      throw std::runtime_error(fmt::format("game {} of pair {} did not end: {}", game_.game, game_.pair,
+                                           trouble_.empty() ? "the server stopped" : trouble_));
+    lab::GameRecord record = lab::gameRecord(game_, score_[0], score_[1], result.gameTime, result.finished);
+    record.line["signature"] = fmt::format("{:016x}", result.signature);
+    record.line["statistics"] = statistics_.toJson();
+    for (const bool rightTeam : {false, true}) {
+      const auto left = std::count_if(result.players.begin(), result.players.end(), [&](const auto& player) {
+        return player.rightTeam == rightTeam && (player.gone || !player.connected);
+      });
+      record.line[rightTeam == game_.aLeft() ? "gone_b" : "gone_a"] = left;
+    }
+    record.times["timeouts"] = server_.statistics().timeouts;
+    return record;
+  }
+
+  lab::SeriesGame game_;
+  const lab::MatchChoice& match_;
+  bool lockStep_;
+  SideAgents& agents_;
+  const std::function<bool(double)>& goOn_;
+  lab::MatchWatcher watcher_;
+  lab::SimulationFrames frames_;
+  lab::MatchStatistics statistics_;
+  std::array<int, 2> score_{};
+  sim::Server server_;
+  std::string trouble_;  // written before the server stops, read after it has
+  std::atomic<bool> begun_{false};
+  std::atomic<bool> over_{false};
+};
+
+std::uint16_t portFrom(std::string_view text) {
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole && port > 0 && port < 65536 ? static_cast<std::uint16_t>(port) : 0;
+}
+
+}  // namespace
+
+std::optional<ServerPlace> serverPlace(const std::string& place) {
+  if (place == "process" || place == "tcp" || place == "realtime") return std::nullopt;
+  const std::size_t last = place.rfind(':');
+  const std::size_t middle = last == std::string::npos || last == 0 ? last : place.rfind(':', last - 1);
+  ServerPlace server;
+  if (middle != std::string::npos && middle > 0 && middle < last) {
+    server.host = place.substr(0, middle);
+    server.port = portFrom(std::string_view(place).substr(middle + 1, last - middle - 1));
+    server.monitorPort = portFrom(std::string_view(place).substr(last + 1));
+  }
+  if (server.port == 0 || server.monitorPort == 0)
+    throw std::runtime_error(fmt::format(
+        "'{}': expected process, tcp, realtime, or HOST:PORT:MONITORPORT such as localhost:3100:3200",
+        place));
+  return server;
+}
+
+lab::PlayGame gamesOfProcesses(const lab::SeriesChoice& choice, const std::string& folder,
+                               const std::string& dataFolder) {
+  const auto programs = std::make_shared<SideAgents::Programs>(choice);
+  return [choice, folder, dataFolder, programs](const lab::SeriesGame& game,
+                                                const std::function<bool(double)>& goOn) {
+    const auto start = Clock::now();
+    lab::MatchChoice match = lab::matchOf(choice, game, folder);
+    const std::string logs =
+        fs::absolute(fmt::format("{}/games/{}-{}", folder, game.pair, game.game)).string();
+    fs::create_directories(logs);
+    SideAgents agents(choice, game, *programs, match, dataFolder, logs);
+    lab::GameRecord record = serverPlace(choice.place)
+                                 ? playOnServer(choice, game, match, agents, goOn, logs)
+                                 : TcpGame(game, match, choice.place != "realtime", agents, goOn).play();
+    agents.addTo(record);
+    record.times["wall_time_s"] = std::chrono::duration<double>(Clock::now() - start).count();
+    // What agents say matters only if something went wrong; that throws above.
+    const bool well = record.line["crashed_a"] == 0 && record.line["crashed_b"] == 0;
+    if (well) fs::remove_all(logs);
+    return record;
+  };
+}
+
+}  // namespace nonet::app

@@ -1,0 +1,101 @@
+#include <ctime>
+#include <filesystem>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "nonet/app/commands.h"
+#include "nonet/app/console.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/app/series_run.h"
+#include "nonet/app/team_name.h"
+#include "nonet/app/version.h"
+#include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/match/table.h"
+
+namespace nonet::app {
+namespace {
+
+struct TableArguments {
+  std::string file;
+  std::string out;
+  std::string data;
+  int jobs = 0;
+  bool json = false;
+};
+
+void write(const lab::TableChoice& table, const std::vector<lab::TableEntry>& entries,
+           const std::string& folder) {
+  lab::writeAtomically(folder + "/table.json", lab::tableJson(table, entries).dump(1) + "\n");
+  lab::writeAtomically(folder + "/table.txt", lab::tableText(table, entries));
+}
+
+int runTable(TableArguments& arguments) {
+  const std::string data = std::filesystem::absolute(dataFolder(arguments.data)).string();
+  lab::TableChoice table = lab::readTable(arguments.file, data);
+  for (const lab::SideChoice& side : table.sides) checkTeamName(side.name);
+  table.games.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
+  table.games.version = versionText();
+  table.games.commandLine = commandLine();
+  if (arguments.out.empty())
+    arguments.out = "logs/" + std::filesystem::path(arguments.file).stem().string() + "-table";
+  std::filesystem::create_directories(arguments.out);
+
+  Console console(arguments.json ? stderr : stdout);
+  std::vector<lab::TableEntry> entries = lab::tableEntries(table);
+  bool complete = true;
+  for (std::size_t i = 0; i < entries.size() && complete; ++i) {
+    const lab::SeriesChoice choice = lab::seriesOf(table, entries[i]);
+    const SeriesRun run = playSeries(
+        choice, fmt::format("{}/{}-{}", arguments.out, choice.a.name, choice.b.name), arguments.jobs, data,
+        console, fmt::format("{} - {} ({} of {}): ", choice.a.name, choice.b.name, i + 1, entries.size()));
+    entries[i].result = run.result;
+    complete = run.complete;
+    write(table, entries, arguments.out);
+  }
+  if (arguments.json)
+    fmt::print("{}\n", lab::tableJson(table, entries).dump());
+  else
+    fmt::print("{}", lab::tableText(table, entries));
+  const char* end = complete ? "table in {0}/table.txt and {0}/table.json\n"
+                             : "stopped; the same command goes on (--out {0})\n";
+  fmt::print(stderr, fmt::runtime(end), arguments.out);
+  return complete ? 0 : 1;
+}
+
+}  // namespace
+
+void addTableCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand(
+      "table", "Teams of a file against each other, or one against all, as a table of goal differences");
+  auto arguments = std::make_shared<TableArguments>();
+  command->add_option("FILE", arguments->file, "What is played (TOML)")->required()->check(CLI::ExistingFile);
+  command->add_option("--out", arguments->out,
+                      "Folder with a series for each entry; a table that is there already goes on");
+  command->add_option("--jobs", arguments->jobs, "Games at a time, 0: one per core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--json", arguments->json, "Print JSON instead of text");
+  command->add_option("--data", arguments->data, "Folder with params/ and skills/ of this program's sides")
+      ->check(CLI::ExistingDirectory);
+  command->footer(
+      "Example: nonet table params/tables/formations.toml\n"
+      "The file:\n"
+      "  against = \"full\"          without it everybody plays everybody\n"
+      "  pairs = 50\n"
+      "  minutes = 10\n"
+      "  sprt = [0.0, 0.5]         stops an entry early; may be left out\n"
+      "  [[side]]\n"
+      "  name = \"full\"\n"
+      "  side = \"own\"              as on the command line of nonet series\n"
+      "  [[side]]\n"
+      "  name = \"boxes\"            a variant of params/variants/\n"
+      "  [[side]]\n"
+      "  name = \"low-line\"\n"
+      "  side = \"own\"\n"
+      "  set = [\"team.formation.stopperBehind=3\"]\n"
+      "All keys: include/nonet/lab/match/table.h. Exit codes: 0 complete, 1 not.");
+  command->callback([arguments, &exitCode] { exitCode = runTable(*arguments); });
+}
+
+}  // namespace nonet::app

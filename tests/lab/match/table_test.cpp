@@ -1,0 +1,132 @@
+#include "nonet/lab/match/table.h"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace nonet::lab {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class TableFile {
+ public:
+  explicit TableFile(const std::string& text)
+      : path_(fs::temp_directory_path() / ("nonet_table_" + std::to_string(::getpid()) + ".toml")) {
+    std::ofstream(path_) << text;
+  }
+  ~TableFile() { fs::remove(path_); }
+  TableFile(const TableFile&) = delete;
+  TableFile& operator=(const TableFile&) = delete;
+  TableChoice read() const { return readTable(path_.string(), NONET_SOURCE_DIR); }
+  std::string error() const {
+    try {
+      read();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  fs::path path_;
+};
+
+constexpr const char* kThree = R"(
+pairs = 7
+minutes = 4
+sprt = [0, 0.5]
+[[side]]
+name = "full"
+side = "own"
+[[side]]
+name = "boxes"
+[[side]]
+name = "high"
+side = "own"
+set = ["team.formation.stopperBehind=3"]
+)";
+
+SeriesResult resultOf(std::vector<double> pairs, int wins, int losses) {
+  SeriesResult result;
+  result.pairs = std::move(pairs);
+  result.games = static_cast<int>(2 * result.pairs.size());
+  result.wins = wins;
+  result.losses = losses;
+  result.ties = result.games - wins - losses;
+  result.difference = summarizePairs(result.pairs);
+  return result;
+}
+
+TEST(Table, IsReadFromAFile) {
+  const TableChoice table = TableFile(kThree).read();
+  ASSERT_EQ(table.sides.size(), 3U);
+  EXPECT_FALSE(table.against);
+  EXPECT_EQ(table.games.pairs, 7);
+  EXPECT_EQ(table.games.minutes, 4.0);
+  ASSERT_TRUE(table.games.sequential);
+  EXPECT_EQ(table.games.sequential->high, 0.5);
+  EXPECT_EQ(table.sides[1].name, "boxes");
+  ASSERT_EQ(table.sides[1].parameterFiles.size(), 1U);
+  EXPECT_THAT(table.sides[1].parameterFiles[0], HasSubstr("params/variants/boxes.toml"));
+  EXPECT_EQ(table.sides[2].assignments.at(0), "team.formation.stopperBehind=3");
+}
+
+TEST(Table, EverybodyAgainstEverybodyOrOneAgainstAll) {
+  TableChoice table = TableFile(kThree).read();
+  EXPECT_EQ(tableEntries(table).size(), 3U);
+  table = TableFile(std::string("against = 'boxes'\n") + kThree).read();
+  const std::vector<TableEntry> entries = tableEntries(table);
+  ASSERT_EQ(entries.size(), 2U);
+  for (const TableEntry& entry : entries) EXPECT_EQ(seriesOf(table, entry).a.name, "boxes");
+  EXPECT_EQ(seriesOf(table, entries[0]).b.name, "full");
+  EXPECT_EQ(seriesOf(table, entries[1]).b.name, "high");
+  EXPECT_EQ(seriesOf(table, entries[1]).place, "process");
+}
+
+TEST(Table, ErrorsNameTheLine) {
+  EXPECT_THAT(TableFile("pears = 7\n").error(), HasSubstr(".toml:1: unknown key 'pears'"));
+  EXPECT_THAT(TableFile("pairs = 7\nminutes = 'x'\n").error(), HasSubstr(".toml:2: minutes"));
+  EXPECT_THAT(TableFile("[[side]]\nname='a'\nside='nowhere'\n").error(), HasSubstr("'nowhere' is no side"));
+  EXPECT_THAT(TableFile("[[side]]\nname='a'\nside='own'\n").error(), HasSubstr("at least two sides"));
+  EXPECT_THAT(TableFile(std::string("against='x'\n") + kThree).error(), HasSubstr("no side is called 'x'"));
+  EXPECT_THAT(TableFile(std::string("sprt2=[1]\n") + kThree).error(), HasSubstr("sprt2"));
+  EXPECT_THAT(TableFile("pairs = \n").error(), HasSubstr(".toml:1"));
+}
+
+TEST(Table, ShowsDifferencesFromTheSideOfTheRow) {
+  const TableChoice table = TableFile(kThree).read();
+  std::vector<TableEntry> entries = tableEntries(table);
+  entries[0].result = resultOf({1.0, 2.0, 3.0}, 5, 1);
+  entries[0].result->verdict = Verdict::High;
+  const std::string text = tableText(table, entries);
+  // mean 2, standard deviation 1 of three pairs
+  EXPECT_THAT(text, HasSubstr("+2.00 (0.58)"));
+  EXPECT_THAT(text, HasSubstr("-2.00 (0.58)")) << "boxes against full";
+  EXPECT_THAT(text, HasSubstr("not played yet"));
+  EXPECT_THAT(text, HasSubstr("+0.5 accepted"));
+  const auto json = tableJson(table, entries);
+  EXPECT_EQ(json.at("entries").size(), 3U);
+  EXPECT_EQ(json.at("entries").at(0).at("difference_per_10_min"), 2.0);
+  EXPECT_EQ(json.at("entries").at(0).at("wins"), 5);
+  EXPECT_FALSE(json.at("entries").at(1).contains("wins"));
+}
+
+TEST(Table, OneAgainstAllBeginsWithTheSmallestDifference) {
+  const TableChoice table = TableFile(std::string("against = 'full'\n") + kThree).read();
+  std::vector<TableEntry> entries = tableEntries(table);
+  entries[0].result = resultOf({1.0, 2.0, 3.0}, 5, 1);
+  entries[1].result = resultOf({0.5, 0.5, 0.2}, 3, 1);
+  const std::string text = tableText(table, entries);
+  EXPECT_LT(text.find("\nhigh"), text.find("\nboxes"));
+  EXPECT_THAT(text, Not(HasSubstr("not played yet")));
+}
+
+}  // namespace
+}  // namespace nonet::lab
