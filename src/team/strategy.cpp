@@ -16,6 +16,7 @@ constexpr std::array kStrategy = {
     StrategyEntry{"dive", dive},
     // One's turn at the ball (Situation::play).
     StrategyEntry{"wait at ball", waitAtBall},
+    StrategyEntry{"receive", receive},
     StrategyEntry{"go to ball", goToBall},
     StrategyEntry{"kick", kick},
     StrategyEntry{"dribble", dribble},

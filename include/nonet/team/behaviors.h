@@ -23,6 +23,8 @@ std::optional<Action> findOneself(const Situation& situation);
 std::optional<Action> dive(const Situation& situation);
 /// Own set piece: stands behind the ball until the receiver is in its place.
 std::optional<Action> waitAtBall(const Situation& situation);
+/// One's turn, the ball rolls here: onto its line, facing it, and lets it come against the feet.
+std::optional<Action> receive(const Situation& situation);
 /// One's turn, from afar: to a place behind the ball as it will lie then.
 std::optional<Action> goToBall(const Situation& situation);
 /// One's turn, near: the last steps to the place for a kick, and the kick.
