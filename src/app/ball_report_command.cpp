@@ -25,7 +25,7 @@ struct BallReportArguments {
 };
 
 int run(const BallReportArguments& arguments) {
-  spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
+  spdlog::set_level(spdlog::level::err);  // who enters the field is no news here
   lab::BallReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   const std::string data = dataFolder(arguments.data);
@@ -50,7 +50,8 @@ int run(const BallReportArguments& arguments) {
 
 void addBallReportCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand(
-      "ball-report", "Measure seeded ball skills: approach, dribble, slalom, drive, duel, receive, run, stop");
+      "ball-report",
+      "Measure seeded ball skills: approach, dribble, slalom, drive, duel, receive, run, stop");
   const auto arguments = std::make_shared<BallReportArguments>();
   lab::BallReportSettings& settings = arguments->settings;
   command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));

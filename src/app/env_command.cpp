@@ -36,7 +36,8 @@ int listTasks() {
   return 0;
 }
 
-// Steps with random actions; processor time, so that the figure is that of a core however busy the machine is.
+// Steps with random actions; processor time, so that the figure is that of a core however busy the machine
+// is.
 int measure(lab::EnvBatch& batch, double seconds, std::uint64_t seed) {
   Random random(seed);
   std::vector<float> actions(batch.size() * batch.actions());
@@ -113,7 +114,8 @@ void addEnvCommand(CLI::App& app, int& exitCode) {
   command->add_option("--bench", arguments->bench, "Steps with random actions for so many seconds instead")
       ->check(CLI::Range(0.0, 3600.0));
   command->footer(
-      "A program that learns starts this command and talks to it: scripts/env_example.py.\nExamples:\n  nonet "
+      "A program that learns starts this command and talks to it: scripts/env_example.py.\nExamples:\n  "
+      "nonet "
       "env --list\n  nonet env run --type 4 --envs 8 --threads 1 --bench 5\n  python3 scripts/env_example.py "
       "dribble");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });

@@ -89,15 +89,22 @@ TEST(Dribble, SlowsDownForABallBesideTheLine) {
     const std::optional<Action> action = dribble(situation);
     return action ? std::get<motion::WalkVelocity>(action->motion).velocity : Pose2();
   };
+  scene.parameters.dribble.footAside = 0.0;
+  EXPECT_NEAR(speedFor({0.8, 0.0}).translation.x(), scene.parameters.dribble.speed, 1e-9);
   const Pose2 inLine = speedFor({0.2, 0.0});
-  EXPECT_NEAR(inLine.translation.x(), scene.parameters.dribble.speed, 1e-9);
+  EXPECT_LT(inLine.translation.x(), 0.7 * scene.parameters.dribble.speed);  // soon at the ball
   EXPECT_NEAR(inLine.translation.y(), 0.0, 1e-9);
   const Pose2 left = speedFor({0.2, 0.1});
-  EXPECT_LT(left.translation.x(), 0.7 * inLine.translation.x());
+  EXPECT_LT(left.translation.x(), inLine.translation.x() - 0.05);
   EXPECT_GT(left.translation.y(), 0.1);
   const Pose2 right = speedFor({0.2, -0.1});
   EXPECT_NEAR(right.translation.x(), left.translation.x(), 1e-9);
   EXPECT_NEAR(right.translation.y(), -left.translation.y(), 1e-9);
+  // With a foot that meets it there no way aside is left, and the robot faces inwards.
+  scene.parameters.dribble.footAside = 0.05;
+  const Pose2 byFoot = speedFor({0.2, 0.04});
+  EXPECT_NEAR(byFoot.translation.y(), 0.0, 1e-9);
+  EXPECT_LT(byFoot.rotation, 0.0);
   // Abreast of the ball it must go around it.
   EXPECT_EQ(speedFor({0.02, 0.1}).translation.norm(), 0.0);
 }

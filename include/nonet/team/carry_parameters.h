@@ -8,15 +8,18 @@ namespace nonet::team {
 /// Running after the ball so that the feet push it on along its line.
 struct DribbleParameters {
   bool steer = false;
-  double speed = 1.0;
+  double speed = 1.2;
+  double touch = 0.3;
+  double haste = 2.0;
   double leastSpeed = 0.15;
   double asideSpeed = 0.4;
   double asideGain = 5.0;
   double turnGain = 3.0;
   double contact = 0.10;
   double tolerance = 0.02;
-  double footAside = 0.0;
-  double lead = 0.06;
+  double footAside = 0.045;
+  double toe = 0.1;
+  double lead = 0.1;
   double angle = 0.7;
   double aside = 0.12;
   double cone = 0.5;
@@ -33,6 +36,18 @@ struct DribbleParameters {
           self.steer);
     visit({"speed", Unit::MetrePerSecond, {0.1, 3}, search(0.4, 2.0), "Of the robot behind a ball in line"},
           self.speed);
+    visit({"touch",
+           Unit::MetrePerSecond,
+           {0, 3},
+           search(0.1, 0.8),
+           "Of the robot when it meets the ball: a foot in its swing is more than twice as fast"},
+          self.touch);
+    visit({"haste",
+           Unit::Hertz,
+           {0, 50},
+           search(0.5, 5),
+           "Speed more per distance that is left to the contact"},
+          self.haste);
     visit({"leastSpeed",
            Unit::MetrePerSecond,
            {0, 3},
@@ -67,6 +82,13 @@ struct DribbleParameters {
            search(0.0, 0.08),
            "The ball is met this far beside the middle, by the foot on whose side it is"},
           self.footAside);
+    visit({"toe",
+           Unit::Radian,
+           {-0.5, 0.5},
+           search(0.0, 0.3),
+           "The robot faces so far inwards of the direction, since a foot whose toes point outwards sends "
+           "the ball there"},
+          self.toe);
     visit({"lead", Unit::Second, {0, 0.5}, search(0.0, 0.2), "The ball is met where it will be after this"},
           self.lead);
     visit({"angle",
@@ -134,8 +156,9 @@ struct ReceiveParameters {
            search(0.0, 0.08),
            "This near to its place the robot stands and lets the ball come"},
           self.ready);
-    visit({"gain", Unit::Hertz, {0.1, 20}, search(1, 10), "Speed per distance on the last steps to the place"},
-          self.gain);
+    visit(
+        {"gain", Unit::Hertz, {0.1, 20}, search(1, 10), "Speed per distance on the last steps to the place"},
+        self.gain);
     visit({"cushion",
            Unit::None,
            {0, 2},

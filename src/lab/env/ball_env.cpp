@@ -14,12 +14,12 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kCycles = 3;                          // a step: from one sight to the next
-constexpr std::array kMostSpeed{1.5, 0.8, 3.0};     // m/s, m/s, rad/s for an action of 1
+constexpr int kCycles = 3;                       // a step: from one sight to the next
+constexpr std::array kMostSpeed{1.5, 0.8, 3.0};  // m/s, m/s, rad/s for an action of 1
 constexpr std::size_t kObservations = 14;
-constexpr double kFarthest = 5.0;                   // m shown
-constexpr double kFall = 1.0;                       // of reward
-constexpr double kGone = 1.5;                       // m, a ball that is lost for good
+constexpr double kFarthest = 5.0;  // m shown
+constexpr double kFall = 1.0;      // of reward
+constexpr double kGone = 1.5;      // m, a ball that is lost for good
 
 motion::HeadRequest watch(const world::WorldState& world) {
   motion::HeadRequest head;
@@ -69,21 +69,20 @@ class BallEnv : public Env {
     way *= std::min(1.0, kFarthest / std::max(way.norm(), 1e-6));
     const Pose2& step = world.body.odometryStep;
     const double age = std::min(world.time - world.ball.lastSeen, 2.0);
-    const std::array<double, kObservations> values{
-        std::clamp(world.ball.p_RB.x(), -kFarthest, kFarthest),
-        std::clamp(world.ball.p_RB.y(), -kFarthest, kFarthest),
-        rolls.x(),
-        rolls.y(),
-        way.x(),
-        way.y(),
-        step.translation.x() / kCycleTime,
-        step.translation.y() / kCycleTime,
-        step.rotation / kCycleTime,
-        world.body.roll,
-        world.body.pitch,
-        world.body.gyro.x(),
-        world.body.gyro.y(),
-        age};
+    const std::array<double, kObservations> values{std::clamp(world.ball.p_RB.x(), -kFarthest, kFarthest),
+                                                   std::clamp(world.ball.p_RB.y(), -kFarthest, kFarthest),
+                                                   rolls.x(),
+                                                   rolls.y(),
+                                                   way.x(),
+                                                   way.y(),
+                                                   step.translation.x() / kCycleTime,
+                                                   step.translation.y() / kCycleTime,
+                                                   step.rotation / kCycleTime,
+                                                   world.body.roll,
+                                                   world.body.pitch,
+                                                   world.body.gyro.x(),
+                                                   world.body.gyro.y(),
+                                                   age};
     std::transform(values.begin(), values.end(), observation.begin(),
                    [](double value) { return static_cast<float>(value); });
   }

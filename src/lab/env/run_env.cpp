@@ -23,10 +23,10 @@ class RunEnv final : public Env {
  public:
   explicit RunEnv(const EnvSetup& setup)
       : setup_(trialSetup(setup.agent)), model_(model::robotModel(setup.agent.robotType)) {
-    setup_.physics.solver = setup.server.quickSolver ? sim::WorldSettings::Solver::Quick
-                                                     : sim::WorldSettings::Solver::Exact;
-    stand_ = motion::WalkEngine::standAngles(
-        model_, setup_.motion.sets.of(setup_.motion.selection.standSet()));
+    setup_.physics.solver =
+        setup.server.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
+    stand_ =
+        motion::WalkEngine::standAngles(model_, setup_.motion.sets.of(setup_.motion.selection.standSet()));
   }
 
   std::size_t observations() const override { return 2 * model_.joints().size() + kBody; }
@@ -68,7 +68,8 @@ class RunEnv final : public Env {
     const auto show = [&](double value) { observation[i++] = static_cast<float>(value); };
     for (const model::JointSpec& joint : model_.joints())
       show(body.joints[model::index(joint.id)] - stand_[model::index(joint.id)]);
-    for (const model::JointSpec& joint : model_.joints()) show(0.1 * body.jointSpeeds[model::index(joint.id)]);
+    for (const model::JointSpec& joint : model_.joints())
+      show(0.1 * body.jointSpeeds[model::index(joint.id)]);
     show(body.roll);
     show(body.pitch);
     for (const double rate : body.gyro) show(rate);

@@ -44,6 +44,19 @@ BallFigure figure(const char* key, const char* what, const std::vector<Result>& 
   return figure(key, what, results, value, [](const Result&) { return true; });
 }
 
+// How near the ball was kept.
+void addKeeping(BallSkillReport& report, const std::string& skill, const std::vector<Dribble>& trials) {
+  const auto add = [&](const char* key, const char* what, const auto& value) {
+    BallFigure row = figure(key, what, trials, value);
+    row.key = skill + key;
+    report.figures.push_back(row);
+  };
+  add("_kept", "share never lost", [](const Dribble& t) { return t.arrived && !t.lost; });
+  add("_away", "share of the time lost", [](const Dribble& t) { return t.away; });
+  add("_apart_m", "m, farthest from the torso", [](const Dribble& t) { return t.apart; });
+  add("_aside_m", "m, farthest from the path", [](const Dribble& t) { return t.aside; });
+}
+
 template <class Result>
 BallSkillReport reportOf(const char* skill, const std::vector<Result>& results,
                          std::vector<BallFigure> figures) {
@@ -62,17 +75,20 @@ BallSkillReport reportOf(const char* skill, const std::vector<Result>& results,
 BallSkillReport measureApproach(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, [&](auto seed) { return approachOnce(s.agent, server, seed); });
   const auto arrived = [](const Approach& trial) { return trial.arrived; };
-  return reportOf("approach", trials,
-                  {figure("approach_s", "s until in place", trials, [](const auto& t) { return t.time; }, arrived),
-                   figure("approach_share", "share in place within 10 s", trials, arrived)});
+  return reportOf(
+      "approach", trials,
+      {figure(
+           "approach_s", "s until in place", trials, [](const auto& t) { return t.time; }, arrived),
+       figure("approach_share", "share in place within 10 s", trials, arrived)});
 }
 
 BallSkillReport measureDribbling(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, [&](auto seed) { return dribbleOnce(s.agent, server, seed); });
-  return reportOf(
+  BallSkillReport report = reportOf(
       "dribble", trials,
-      {figure("dribble_mps", "m/s of the ball over 10 m", trials, [](const auto& t) { return t.speed; }),
-       figure("dribble_kept", "share never lost", trials, [](const auto& t) { return t.arrived && !t.lost; })});
+      {figure("dribble_mps", "m/s of the ball over 10 m", trials, [](const auto& t) { return t.speed; })});
+  addKeeping(report, "dribble", trials);
+  return report;
 }
 
 BallSkillReport measureSlalom(const BallReportSettings& s, const sim::Settings& server, BallReport& all) {
@@ -80,9 +96,9 @@ BallSkillReport measureSlalom(const BallReportSettings& s, const sim::Settings& 
   BallSkillReport report = reportOf(
       "slalom", trials,
       {figure("slalom_mps", "m/s of the ball along the path", trials, [](const auto& t) { return t.speed; }),
-       figure("slalom_kept", "share never lost", trials, [](const auto& t) { return t.arrived && !t.lost; }),
        figure("slalom_arrived", "share at the end within 60 s", trials,
               [](const auto& t) { return t.arrived; })});
+  addKeeping(report, "slalom", trials);
   all.slaloms = std::move(trials);
   return report;
 }
@@ -97,27 +113,28 @@ BallSkillReport measureDrive(const BallReportSettings& s, const sim::Settings& s
 
 BallSkillReport measureDuel(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, [&](auto seed) { return duelOnce(s.agent, s.opponent, server, seed); });
-  return reportOf("duel", trials,
-                  {figure("duel_share", "share won", trials, [](const auto& t) { return t.won; }),
-                   figure("duel_open", "share undecided", trials, [](const auto& t) { return t.won == 0.5; })});
+  return reportOf(
+      "duel", trials,
+      {figure("duel_share", "share won", trials, [](const auto& t) { return t.won; }),
+       figure("duel_open", "share undecided", trials, [](const auto& t) { return t.won == 0.5; })});
 }
 
 BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, [&](auto seed) { return receiveOnce(s.agent, server, seed); });
-  return reportOf(
-      "receive", trials,
-      {figure("receive_share", "share held", trials, [](const auto& t) { return t.held; }),
-       figure("receive_rebound_m", "m from the robot after the touch", trials,
-              [](const auto& t) { return t.rebound; })});
+  return reportOf("receive", trials,
+                  {figure("receive_share", "share held", trials, [](const auto& t) { return t.held; }),
+                   figure("receive_rebound_m", "m from the robot after the touch", trials,
+                          [](const auto& t) { return t.rebound; })});
 }
 
 BallSkillReport measureRun(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, [&](auto seed) { return runOnce(s.agent, server, seed); });
-  return reportOf("run", trials,
-                  {figure("run_mps", "m/s beyond 3 m, for 3 s", trials, [](const auto& t) { return t.speed; }),
-                   figure("stop_s", "s from the run to a stand", trials,
-                          [](const auto& t) { return t.stopTime; },
-                          [](const auto& t) { return !t.fell; })});
+  return reportOf(
+      "run", trials,
+      {figure("run_mps", "m/s beyond 3 m, for 3 s", trials, [](const auto& t) { return t.speed; }),
+       figure(
+           "stop_s", "s from the run to a stand", trials, [](const auto& t) { return t.stopTime; },
+           [](const auto& t) { return !t.fell; })});
 }
 
 BallSkillReport measure(const std::string& skill, const BallReportSettings& s, const sim::Settings& server,
@@ -192,8 +209,10 @@ std::string slalomSvg(const std::vector<Dribble>& slaloms) {
   constexpr double kLeft = 60.0;
   constexpr double kMiddle = 200.0;
   std::string out =
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 960 420' font-family='sans-serif' font-size='13'>\n"
-      "<rect width='100%' height='100%' fill='white'/>\n<text x='20' y='24' font-size='16'>The ball's ways in "
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 960 420' font-family='sans-serif' "
+      "font-size='13'>\n"
+      "<rect width='100%' height='100%' fill='white'/>\n<text x='20' y='24' font-size='16'>The ball's ways "
+      "in "
       "the slalom: six turns of 60 degrees, 2 m apart</text>\n";
   const auto polyline = [&](const auto& points, const char* color, const char* style) {
     std::string text;
@@ -215,7 +234,10 @@ std::string slalomSvg(const std::vector<Dribble>& slaloms) {
     };
     std::vector<Vector2> way;
     for (const BallSample& sample : slalom.track) way.push_back(inPath(sample.ball));
-    polyline(way, slalom.fell ? "#c33" : slalom.lost || !slalom.arrived ? "#e90" : "#27a",
+    polyline(way,
+             slalom.fell                      ? "#c33"
+             : slalom.lost || !slalom.arrived ? "#e90"
+                                              : "#27a",
              "stroke-opacity='0.5'");
     if (drawn) continue;
     drawn = true;
@@ -224,7 +246,8 @@ std::string slalomSvg(const std::vector<Dribble>& slaloms) {
     polyline(path, "#555", "stroke-dasharray='4 4'");
   }
   return out +
-         "<text x='20' y='400'>blue: kept within 0.5 m to the end; orange: lost; red: the robot fell; dashed: "
+         "<text x='20' y='400'>blue: kept within 0.5 m to the end; orange: lost; red: the robot fell; "
+         "dashed: "
          "the path</text>\n</svg>\n";
 }
 

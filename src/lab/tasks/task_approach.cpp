@@ -37,7 +37,8 @@ class ApproachTask final : public Task {
       arrived += approach.arrived ? 1.0 : 0.0;
       falls += approach.fell ? 1.0 : 0.0;
     }
-    return {.fitness = -cost / kApproaches, .measures = {{"arrived", arrived / kApproaches}, {"falls", falls}}};
+    return {.fitness = -cost / kApproaches,
+            .measures = {{"arrived", arrived / kApproaches}, {"falls", falls}}};
   }
 };
 

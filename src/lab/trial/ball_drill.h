@@ -16,9 +16,9 @@ struct BallScene {
   GameSituation situation;  // without players
   Pose2 start;              // of the robot
   Vector2 target = Vector2::Zero();
-  BallPath path;            // dribbling
-  double speed = 0.0;       // of a pass a metre before the robot, m/s
-  double aside = 0.0;       // by which it would pass the robot, m
+  BallPath path;       // dribbling
+  double speed = 0.0;  // of a pass a metre before the robot, m/s
+  double aside = 0.0;  // by which it would pass the robot, m
 };
 BallScene dribbleScene(Random& random);
 BallScene slalomScene(Random& random);
@@ -44,7 +44,8 @@ class RecordedTrial {
 
   void step();
   /// Goes on while this holds, at most so long.
-  void run(double seconds, const std::function<bool()>& goesOn = [] { return true; });
+  void run(
+      double seconds, const std::function<bool()>& goesOn = [] { return true; });
 
   GameTrial& game() { return game_; }
   const BallTrack& track() const { return track_; }

@@ -8,10 +8,10 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kTouched = 0.03;     // m that the ball has moved
-constexpr double kCornerPassed = 0.5; // m, from the corner
-constexpr double kSpeedOver = 0.1;    // s over which a speed is measured
-constexpr double kReboundTime = 1.0;  // s
+constexpr double kTouched = 0.03;      // m that the ball has moved
+constexpr double kCornerPassed = 0.5;  // m, from the corner
+constexpr double kSpeedOver = 0.1;     // s over which a speed is measured
+constexpr double kReboundTime = 1.0;   // s
 
 Vector2 unit(const Vector2& v) {
   return v / std::max(v.norm(), 1e-9);
@@ -101,8 +101,11 @@ DribbleResult measureDribble(const BallTrack& track, const BallPath& path) {
     }
     progress.update(sample.ball);
     const double apart = (sample.ball - sample.X_WR.translation).norm();
+    const double aside = distanceFrom(path, sample.ball);
+    result.apart = std::max(result.apart, apart);
+    result.aside = std::max(result.aside, aside);
     ++samples;
-    away += apart > path.keep || distanceFrom(path, sample.ball) > path.width ? 1 : 0;
+    away += apart > path.keep || aside > path.width ? 1 : 0;
     result.arrived = progress.farthest() >= whole - 1e-9;
     end = sample.time;
     if (result.arrived) break;

@@ -27,10 +27,10 @@ Vector2 anyWay(Random& random, double least, double most) {
 
 // -- approach
 
-constexpr double kApproachFrom = 1.5;     // m
-constexpr double kApproachRolling = 1.0;  // m/s
-constexpr double kApproachLongest = 10.0; // s
-constexpr double kKickOver = 8.0;         // m, to the target
+constexpr double kApproachFrom = 1.5;      // m
+constexpr double kApproachRolling = 1.0;   // m/s
+constexpr double kApproachLongest = 10.0;  // s
+constexpr double kKickOver = 8.0;          // m, to the target
 
 // What the body said of itself last.
 struct KickWatch {
@@ -75,9 +75,9 @@ constexpr double kDriveTime = 15.0;  // s
 
 // -- duel
 
-constexpr double kDuelApart = 0.5;   // m from the ball
-constexpr double kDuelGain = 2.0;    // m
-constexpr double kDuelTime = 20.0;   // s
+constexpr double kDuelApart = 0.5;  // m from the ball
+constexpr double kDuelGain = 2.0;   // m
+constexpr double kDuelTime = 20.0;  // s
 
 constexpr double kPassTime = 6.0;  // s
 
@@ -176,8 +176,8 @@ Reception receiveOnce(const agent::AgentConfig& agent, const sim::Settings& sett
   Random random(seed);
   const BallScene scene = passScene(random);
   GameSituation situation = scene.situation;
-  situation.players = {fieldPlayer(agent, scene.start,
-                                   drilled(agent.parameters.team, scene.target, team::KickUse::Never))};
+  situation.players = {
+      fieldPlayer(agent, scene.start, drilled(agent.parameters.team, scene.target, team::KickUse::Never))};
   RecordedTrial trial(settings, situation, random.next());
   trial.run(kPassTime);
   Reception reception;

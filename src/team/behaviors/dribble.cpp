@@ -22,7 +22,8 @@ Line lineAhead(const Situation& s) {
   return {ball.dot(play.along), ball.dot(play.aside)};
 }
 
-// After the ball, as fast as leaves time to come into its line before the contact.
+// After the ball, as fast as leaves time to come into its line before the contact, and slow at the contact,
+// or the ball is gone.
 std::optional<Action> steer(const Situation& s) {
   const BallPlay& play = *s.play;
   const DribbleParameters& p = s.parameters.dribble;
@@ -30,14 +31,17 @@ std::optional<Action> steer(const Situation& s) {
   const bool inLine = line.behind > p.behind && std::abs(play.direction) < p.angle &&
                       std::abs(line.besides) < p.aside + p.cone * std::max(line.behind, 0.0);
   if (!inLine) return std::nullopt;
+  // Met by the foot on whose side it is.
   const double foot = std::clamp(line.besides, -p.footAside, p.footAside);
   const double off = line.besides - foot;
+  const double gap = line.behind - p.contact;
   const double missing = std::max(std::abs(off) - p.tolerance, 1e-3);
-  const double ahead =
-      std::min(p.speed, std::max(p.leastSpeed, p.asideSpeed * (line.behind - p.contact) / missing));
+  const double inTime = std::max(p.leastSpeed, p.asideSpeed * gap / missing);
+  const double ahead = std::min({p.speed, p.touch + p.haste * std::max(gap, 0.0), inTime});
   const double aside = std::clamp(p.asideGain * off, -p.asideSpeed, p.asideSpeed);
+  const double inwards = p.footAside > 0.0 ? p.toe * foot / p.footAside : 0.0;
   motion::WalkVelocity walk;
-  walk.velocity = Pose2(ahead * play.along + aside * play.aside, p.turnGain * play.direction);
+  walk.velocity = Pose2(ahead * play.along + aside * play.aside, p.turnGain * (play.direction - inwards));
   return Action(walk, "steered");
 }
 

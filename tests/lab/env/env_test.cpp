@@ -25,7 +25,8 @@ TEST(Env, TheBatchDoesNotDependOnThreads) {
   std::vector<float> actions(3 * one.actions());
   bool ended = false;
   for (int i = 0; i < 80; ++i) {
-    for (std::size_t k = 0; k < actions.size(); ++k) actions[k] = 0.2F * std::sin(static_cast<float>(i + 5 * k));
+    for (std::size_t k = 0; k < actions.size(); ++k)
+      actions[k] = 0.2F * std::sin(static_cast<float>(i + 5 * k));
     one.step(actions);
     three.step(actions);
     for (std::size_t k = 0; k < one.observation().size(); ++k)

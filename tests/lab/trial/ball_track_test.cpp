@@ -36,9 +36,8 @@ Vector2 onPath(const BallPath& path, double way) {
 
 TEST(BallTrack, DribblesAsFastAsTheBallGoes) {
   // Lies for 2 s, then goes 10 m at 0.8 m/s: the time before the touch does not count.
-  const BallTrack track = trackOf(20.0, 0.2, [](double t) {
-    return Vector2(1.0 + 0.8 * std::clamp(t - 2.0, 0.0, 14.0), 2.0);
-  });
+  const BallTrack track =
+      trackOf(20.0, 0.2, [](double t) { return Vector2(1.0 + 0.8 * std::clamp(t - 2.0, 0.0, 14.0), 2.0); });
   const DribbleResult result = measureDribble(track, straightPath({1.0, 2.0, 0.0}, 10.0));
   EXPECT_TRUE(result.arrived);
   EXPECT_FALSE(result.lost);

@@ -14,11 +14,11 @@ namespace nonet::lab {
 
 struct BallReportSettings {
   agent::AgentConfig agent;
-  agent::AgentConfig opponent;    // in the duel
-  std::string skill = "all";      // or one of ballSkillNames()
-  int trials = 50;                // of each skill
+  agent::AgentConfig opponent;  // in the duel
+  std::string skill = "all";    // or one of ballSkillNames()
+  int trials = 50;              // of each skill
   std::uint64_t seed = 1;
-  int threads = 0;                // 0: all processors
+  int threads = 0;  // 0: all processors
   bool quickSolver = false;
   std::function<void(const std::string&)> progress;  // told the name of each skill as it begins
 };
@@ -28,7 +28,7 @@ struct BallFigure {
   std::string key;   // of the JSON: "approach_s"
   std::string what;  // "approach, s"
   Estimate value;
-  int trials = 0;    // that the value is the mean of
+  int trials = 0;  // that the value is the mean of
 };
 
 struct BallSkillReport {

@@ -44,7 +44,8 @@ struct Drive : TrialCost {
 Drive driveOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed);
 
 struct Duel : TrialCost {
-  double won = 0.5;  // 1: the ball came 2 m towards the other goal first; 0: towards the own one; 0.5: neither
+  double won =
+      0.5;  // 1: the ball came 2 m towards the other goal first; 0: towards the own one; 0.5: neither
 };
 /// The ball 0.5 m from both; the opponent is a whole agent too.
 Duel duelOnce(const agent::AgentConfig& agent, const agent::AgentConfig& opponent,
