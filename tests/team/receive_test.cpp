@@ -94,10 +94,10 @@ TEST(Dribble, SlowsDownForABallBesideTheLine) {
   const Pose2 inLine = speedFor({0.2, 0.0});
   EXPECT_LT(inLine.translation.x(), 0.7 * scene.parameters.dribble.speed);  // soon at the ball
   EXPECT_NEAR(inLine.translation.y(), 0.0, 1e-9);
-  const Pose2 left = speedFor({0.2, 0.1});
+  const Pose2 left = speedFor({0.2, 0.15});
   EXPECT_LT(left.translation.x(), inLine.translation.x() - 0.05);
   EXPECT_GT(left.translation.y(), 0.1);
-  const Pose2 right = speedFor({0.2, -0.1});
+  const Pose2 right = speedFor({0.2, -0.15});
   EXPECT_NEAR(right.translation.x(), left.translation.x(), 1e-9);
   EXPECT_NEAR(right.translation.y(), -left.translation.y(), 1e-9);
   // With a foot that meets it there no way aside is left, and the robot faces inwards.
