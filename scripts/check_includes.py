@@ -37,8 +37,9 @@ PARTS = {
         "tasks": ["common", "trial"],
         "optimize": ["common", "trial", "tasks"],
         "match": ["common"],
+        "env": ["common", "trial"],
         "reports": ["common", "trial", "tasks", "optimize", "match"],
-        TOP: ["common", "trial", "tasks", "optimize", "match", "reports"],
+        TOP: ["common", "trial", "tasks", "optimize", "match", "env", "reports"],
     },
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')

@@ -46,6 +46,8 @@ int run(int argc, char** argv) {
   nonet::app::addWalkReportCommand(app, exitCode);
   nonet::app::addRiseReportCommand(app, exitCode);
   nonet::app::addKickReportCommand(app, exitCode);
+  nonet::app::addBallReportCommand(app, exitCode);
+  nonet::app::addEnvCommand(app, exitCode);
   nonet::app::addParamsCommand(app, exitCode);
   nonet::app::addSoakCommand(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') checkCommand(app, argv[1]);

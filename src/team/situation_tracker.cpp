@@ -19,7 +19,11 @@ Situation SituationTracker::update(const world::WorldState& world, const motion:
     claims_ = situation.mayTouch && goalieWantsBall(situation, claims_);
   situation.claims = claims_;
   situation.lastBeam = lastBeam_;
-  situation.play = ownTurn(situation, recording_ ? &targets_ : nullptr);
+  if (!intent_) {
+    situation.play = ownTurn(situation, recording_ ? &targets_ : nullptr);
+  } else if (situation.acts()) {
+    situation.play = playTowards(situation, intent_->p_FTarget, intent_->use);
+  }
   return situation;
 }
 

@@ -17,6 +17,7 @@ constexpr std::array kStrategy = {
     // One's turn at the ball (Situation::play).
     StrategyEntry{"wait at ball", waitAtBall},
     StrategyEntry{"await ball", awaitBall},
+    StrategyEntry{"receive", receive},
     StrategyEntry{"go to ball", goToBall},
     StrategyEntry{"kick", kick},
     StrategyEntry{"dribble", dribble},

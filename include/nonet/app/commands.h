@@ -23,6 +23,8 @@ void addSkillCommand(CLI::App& app, int& exitCode);
 void addWalkReportCommand(CLI::App& app, int& exitCode);
 void addRiseReportCommand(CLI::App& app, int& exitCode);
 void addKickReportCommand(CLI::App& app, int& exitCode);
+void addBallReportCommand(CLI::App& app, int& exitCode);
+void addEnvCommand(CLI::App& app, int& exitCode);
 void addParamsCommand(CLI::App& app, int& exitCode);
 void addSoakCommand(CLI::App& app, int& exitCode);
 

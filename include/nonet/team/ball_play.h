@@ -17,6 +17,13 @@ enum class KickUse : std::uint8_t {
   Clear,   // as soon as no opponent is near the ball
 };
 
+/// What a player is to do with the ball whatever the game asks of it: for drills, trials and learning. It
+/// goes on by its own eyes.
+struct BallIntent {
+  Vector2 p_FTarget = Vector2::Zero();  // own field frame, m
+  KickUse use = KickUse::Never;
+};
+
 struct BallPlay {
   Vector2 p_FTarget = Vector2::Zero();  // own field frame, m
   KickUse use = KickUse::Never;

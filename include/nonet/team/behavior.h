@@ -2,6 +2,8 @@
 // adds where to look and what to say.
 #pragma once
 
+#include <optional>
+
 #include "nonet/motion/motion_state.h"
 #include "nonet/team/action.h"
 #include "nonet/team/challenge.h"
@@ -18,6 +20,9 @@ class Behavior {
 
   /// One cycle; allocates nothing. The action is valid until the next call.
   const Action& update(const world::WorldState& world, const motion::MotionState& motion);
+
+  /// A drill: the ball is to go there, from the next cycle on; empty: what the game asks for.
+  void setIntent(const std::optional<BallIntent>& intent) { tracker_.setIntent(intent); }
 
   const Action& action() const { return action_; }
   Role role() const { return role_; }

@@ -25,6 +25,8 @@ std::optional<Action> dive(const Situation& situation);
 std::optional<Action> waitAtBall(const Situation& situation);
 /// One's turn, the ball rolls and no opponent is near: to where it can be kicked once it has rolled out.
 std::optional<Action> awaitBall(const Situation& situation);
+/// One's turn, the ball rolls here: onto its line, facing it, and lets it come against the feet.
+std::optional<Action> receive(const Situation& situation);
 /// One's turn, from afar: to a place behind the ball as it will lie then.
 std::optional<Action> goToBall(const Situation& situation);
 /// One's turn, near: the last steps to the place for a kick, and the kick.

@@ -4,6 +4,7 @@
 #include "nonet/config/parameters.h"
 #include "nonet/team/ball_parameters.h"
 #include "nonet/team/challenge_parameters.h"
+#include "nonet/team/carry_parameters.h"
 #include "nonet/team/choice_parameters.h"
 #include "nonet/team/place_parameters.h"
 #include "nonet/team/variant_parameters.h"
@@ -262,6 +263,8 @@ struct TeamParameters {
   FormationParameters formation;
   BallTargetParameters target;
   BallHandlingParameters ball;
+  DribbleParameters dribble;
+  ReceiveParameters receive;
   ChoiceParameters choice;
   GoalieParameters goalie;
   PaceParameters pace;
@@ -286,6 +289,8 @@ struct TeamParameters {
     visit.group("formation", self.formation);
     visit.group("target", self.target);
     visit.group("ball", self.ball);
+    visit.group("dribble", self.dribble);
+    visit.group("receive", self.receive);
     visit.group("choice", self.choice);
     visit.group("goalie", self.goalie);
     visit.group("pace", self.pace);

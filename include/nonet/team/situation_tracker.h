@@ -1,6 +1,8 @@
 // WorldState -> Situation: what must be remembered from cycle to cycle for it.
 #pragma once
 
+#include <optional>
+
 #include "nonet/team/role_voting.h"
 #include "nonet/team/situation.h"
 #include "nonet/team/touch_watch.h"
@@ -13,6 +15,8 @@ class SituationTracker {
 
   /// The situation points to `world`, `motion` and into this object: it is valid until the next call.
   Situation update(const world::WorldState& world, const motion::MotionState& motion);
+  /// It is this player's turn, and this is its play, until the intent is taken back.
+  void setIntent(const std::optional<BallIntent>& intent) { intent_ = intent; }
   /// The robot asked to be beamed in this cycle.
   void noticeBeam(double time) { lastBeam_ = time; }
   /// For the own next message: role of players 2 to 11; empty without a view of the field.
@@ -26,6 +30,7 @@ class SituationTracker {
   RoleVoting voting_;
   TouchWatch touches_;
   Candidates targets_;
+  std::optional<BallIntent> intent_;
   bool recording_ = false;
   bool claims_ = false;              // the goalie goes to the ball
   double lastBeam_ = world::kNever;  // server time, s

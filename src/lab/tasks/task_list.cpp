@@ -23,6 +23,9 @@ std::span<const Task* const> registeredTasks() {
       &swingTask("power"),
       &kickTask("kick_power"),
       &diveTask(),
+      &approachTask(),
+      &dribbleTask(),
+      &receiveTask(),
       &quadraticTask(),
   };
   return tasks;
@@ -50,6 +53,20 @@ TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t se
   setup.physics.solver =
       settings.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
   return setup;
+}
+
+agent::AgentConfig agentOf(const agent::AgentParameters& parameters, const TaskSettings& settings) {
+  agent::AgentConfig agent;
+  agent.robotType = settings.robotType;
+  agent.parameters = parameters;
+  agent.skillFolder = settings.dataFolder + "/skills";
+  return agent;
+}
+
+sim::Settings serverOf(const TaskSettings& settings) {
+  sim::Settings server;
+  server.quickSolver = settings.quickSolver;
+  return server;
 }
 
 void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set) {

@@ -8,6 +8,7 @@
 #include "nonet/lab/tasks/task.h"
 #include "nonet/lab/trial/robot_trial.h"
 #include "nonet/lab/trial/target_course.h"
+#include "nonet/sim/settings/settings.h"
 
 namespace nonet::lab {
 
@@ -25,10 +26,17 @@ const Task& kickTask(std::string_view name);
 /// "power": the same kick from the moment it begins.
 const Task& swingTask(std::string_view name);
 const Task& diveTask();
+const Task& approachTask();
+const Task& dribbleTask();
+const Task& receiveTask();
 const Task& quadraticTask();
 
 TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings);
+
+/// The whole agent of a game's task, and the server it plays on.
+agent::AgentConfig agentOf(const agent::AgentParameters& parameters, const TaskSettings& settings);
+sim::Settings serverOf(const TaskSettings& settings);
 
 /// Where the search for a walk set begins: at `walk`, unless the set was learned before.
 void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set);

@@ -1,19 +1,66 @@
+#include <algorithm>
 #include <cmath>
 
 #include "nonet/team/behaviors.h"
 
 namespace nonet::team {
 
-std::optional<Action> dribble(const Situation& s) {
-  if (!s.play) return std::nullopt;
+namespace {
+
+// The ball and the way that it should go, as they will be seen in a moment: the ball rolls, the robot walks.
+struct Line {
+  double behind = 0.0;   // m, how far the robot is behind the ball
+  double besides = 0.0;  // m, the ball to the left of the line through the robot
+};
+
+Line lineAhead(const Situation& s) {
+  const BallPlay& play = *s.play;
+  const world::BodyState& body = s.world.body;
+  const Vector2 rolls = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
+  const Vector2 walks = body.odometryStep.translation / std::max(body.cycleTime, 1e-3);
+  const Vector2 ball = play.ball + s.parameters.dribble.lead * (rolls - walks);
+  return {ball.dot(play.along), ball.dot(play.aside)};
+}
+
+// After the ball, as fast as leaves time to come into its line before the contact, and slow at the contact,
+// or the ball is gone.
+std::optional<Action> steer(const Situation& s) {
+  const BallPlay& play = *s.play;
+  const DribbleParameters& p = s.parameters.dribble;
+  const Line line = lineAhead(s);
+  const bool inLine = line.behind > p.behind && std::abs(play.direction) < p.angle &&
+                      std::abs(line.besides) < p.aside + p.cone * std::max(line.behind, 0.0);
+  if (!inLine) return std::nullopt;
+  // Met by the foot on whose side it is.
+  const double foot = std::clamp(line.besides, -p.footAside, p.footAside);
+  const double off = line.besides - foot;
+  const double gap = line.behind - p.contact;
+  const double missing = std::max(std::abs(off) - p.tolerance, 1e-3);
+  const double inTime = std::max(p.leastSpeed, p.asideSpeed * gap / missing);
+  const double ahead = std::min({p.speed, p.touch + p.haste * std::max(gap, 0.0), inTime});
+  const double aside = std::clamp(p.asideGain * off, -p.asideSpeed, p.asideSpeed);
+  const double inwards = p.footAside > 0.0 ? p.toe * foot / p.footAside : 0.0;
+  motion::WalkVelocity walk;
+  walk.velocity = Pose2(ahead * play.along + aside * play.aside, p.turnGain * (play.direction - inwards));
+  return Action(walk, "steered");
+}
+
+std::optional<Action> runThrough(const Situation& s) {
   const BallPlay& play = *s.play;
   const BallHandlingParameters& p = s.parameters.ball;
   const bool aligned = play.behind > p.alignedBehind && std::abs(play.direction) < p.alignedAngle &&
                        std::abs(play.besides) < p.alignedAside;
   if (!aligned) return std::nullopt;
   const Pose2 through(play.ball + p.dribbleThrough * play.along, play.direction);
-  Action action(motion::WalkTo{through, false}, "through the ball");
-  action.reason.candidates = play.candidates;
+  return Action(motion::WalkTo{through, false}, "through the ball");
+}
+
+}  // namespace
+
+std::optional<Action> dribble(const Situation& s) {
+  if (!s.play) return std::nullopt;
+  std::optional<Action> action = s.parameters.dribble.steer ? steer(s) : runThrough(s);
+  if (action) action->reason.candidates = s.play->candidates;
   return action;
 }
 

@@ -1,0 +1,86 @@
+// The trials as environments for people who learn by reinforcement: observation, action, reward, on the exact
+// server. One step is one decision of the learner; episodes begin and end by themselves.
+//
+// A batch gives the same numbers for the same seed and actions, however many threads it runs on.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nonet/agent/agent.h"
+#include "nonet/sim/settings/settings.h"
+
+namespace nonet::lab {
+
+struct EnvSetup {
+  agent::AgentConfig agent;
+  sim::Settings server;
+};
+
+struct EnvStep {
+  double reward = 0.0;
+  bool done = false;  // the episode is over: reset before the next step
+};
+
+/// One episode after the other of one task.
+class Env {
+ public:
+  virtual ~Env() = default;
+  virtual std::size_t observations() const = 0;
+  virtual std::size_t actions() const = 0;
+  virtual double secondsPerStep() const = 0;
+
+  virtual void reset(std::uint64_t seed) = 0;
+  /// Entries of the action beyond -1 .. 1 count as those.
+  virtual EnvStep step(std::span<const float> action) = 0;
+  virtual void observe(std::span<float> observation) const = 0;
+};
+
+struct EnvTask {
+  std::string_view name;
+  std::string_view description;
+  std::unique_ptr<Env> (*make)(const EnvSetup& setup);
+};
+std::span<const EnvTask> envTasks();
+/// Throws std::runtime_error that lists the known names.
+std::unique_ptr<Env> makeEnv(std::string_view task, const EnvSetup& setup);
+
+/// Several environments that step together. An episode that has ended is followed by the next one at once:
+/// its last reward comes with the first observation of the next.
+class EnvBatch {
+ public:
+  EnvBatch(std::string_view task, const EnvSetup& setup, int count, int threads, std::uint64_t seed);
+
+  std::size_t size() const { return envs_.size(); }
+  std::size_t observations() const { return envs_.front().env->observations(); }
+  std::size_t actions() const { return envs_.front().env->actions(); }
+  double secondsPerStep() const { return envs_.front().env->secondsPerStep(); }
+
+  /// size() x actions() numbers, environment by environment.
+  void step(std::span<const float> actions);
+
+  /// size() x observations() numbers, environment by environment.
+  std::span<const float> observation() const { return observation_; }
+  std::span<const float> rewards() const { return rewards_; }
+  std::span<const std::uint8_t> done() const { return done_; }
+
+ private:
+  struct Entry {
+    std::unique_ptr<Env> env;
+    std::uint64_t episode = 0;
+  };
+  void begin(std::size_t i);
+
+  std::vector<Entry> envs_;
+  int threads_ = 0;
+  std::uint64_t seed_ = 1;
+  std::vector<float> observation_;
+  std::vector<float> rewards_;
+  std::vector<std::uint8_t> done_;
+};
+
+}  // namespace nonet::lab

@@ -1,0 +1,57 @@
+// What the robot does with the ball at its feet, and how fast it runs: seeded trials of every ball skill
+// (lab/trial/ball_trial.h) as a table, as JSON and as a picture of the slalom's paths.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "nonet/lab/common/statistics.h"
+#include "nonet/lab/trial/ball_trial.h"
+
+namespace nonet::lab {
+
+struct BallReportSettings {
+  agent::AgentConfig agent;
+  agent::AgentConfig opponent;  // in the duel
+  std::string skill = "all";    // or one of ballSkillNames()
+  int trials = 50;              // of each skill
+  std::uint64_t seed = 1;
+  int threads = 0;  // 0: all processors
+  bool quickSolver = false;
+  std::function<void(const std::string&)> progress;  // told the name of each skill as it begins
+};
+
+/// One row: what counts, over all trials of a skill.
+struct BallFigure {
+  std::string key;   // of the JSON: "approach_s"
+  std::string what;  // "approach, s"
+  Estimate value;
+  int trials = 0;  // that the value is the mean of
+};
+
+struct BallSkillReport {
+  std::string skill;
+  std::vector<BallFigure> figures;
+  int trials = 0;
+  int falls = 0;           // trials with a fall
+  int selfCollisions = 0;  // fouls
+  double simulated = 0.0;  // s
+};
+
+struct BallReport {
+  std::vector<BallSkillReport> skills;
+  std::vector<Dribble> slaloms;  // for the picture
+};
+
+/// approach, dribble, slalom, drive, duel, receive, run.
+std::vector<std::string> ballSkillNames();
+
+/// Throws std::runtime_error that names the skills if the one wanted is unknown.
+BallReport measureBallSkills(const BallReportSettings& settings);
+std::string ballReportTable(const BallReport& report);
+std::string ballReportJson(const BallReport& report, const BallReportSettings& settings);
+std::string slalomSvg(const std::vector<Dribble>& slaloms);
+
+}  // namespace nonet::lab

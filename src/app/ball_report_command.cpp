@@ -1,0 +1,77 @@
+// nonet ball-report: the ball at the feet, and the run.
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "nonet/agent/agent_setup.h"
+#include "nonet/app/commands.h"
+#include "nonet/app/data_folder.h"
+#include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/reports/ball_report.h"
+
+namespace nonet::app {
+
+namespace {
+
+struct BallReportArguments {
+  agent::AgentChoice choice;
+  lab::BallReportSettings settings;
+  std::string data;
+  std::string opponentData;
+  std::string svg;
+  bool json = false;
+};
+
+int run(const BallReportArguments& arguments) {
+  spdlog::set_level(spdlog::level::err);  // who enters the field is no news here
+  lab::BallReportSettings settings = arguments.settings;
+  settings.seed = arguments.choice.seed;
+  const std::string data = dataFolder(arguments.data);
+  settings.agent = agent::makeAgentConfig(arguments.choice, data);
+  agent::AgentChoice opponent;
+  opponent.robotType = arguments.choice.robotType;
+  settings.opponent = agent::makeAgentConfig(
+      opponent, arguments.opponentData.empty() ? data : dataFolder(arguments.opponentData));
+  settings.progress = [&](const std::string& skill) {
+    fmt::print(stderr, "{}: {} trials\n", skill, settings.trials);
+  };
+  const lab::BallReport report = lab::measureBallSkills(settings);
+  fmt::print("{}", arguments.json ? lab::ballReportJson(report, settings) : lab::ballReportTable(report));
+  if (arguments.svg.empty() || report.slaloms.empty()) return 0;
+  const std::string path = arguments.svg + "slalom.svg";
+  lab::writeAtomically(path, lab::slalomSvg(report.slaloms));
+  fmt::print(stderr, "{}\n", path);
+  return 0;
+}
+
+}  // namespace
+
+void addBallReportCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand(
+      "ball-report",
+      "Measure seeded ball skills: approach, dribble, slalom, drive, duel, receive, run, stop");
+  const auto arguments = std::make_shared<BallReportArguments>();
+  lab::BallReportSettings& settings = arguments->settings;
+  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
+  command->add_option("--skill", settings.skill, "One of them, or all");
+  command->add_option("--data", arguments->data, "Folder with params/ and skills/");
+  command->add_option("--opponent-data", arguments->opponentData,
+                      "The same for the opponent in the duel; without it: that of --data, without --set");
+  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
+      ->check(CLI::ExistingFile);
+  command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");
+  command->add_option("--trials", settings.trials, "Trials of each skill")->check(CLI::Range(1, 100000));
+  command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
+  command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
+  command->add_flag("--quick", settings.quickSolver, "Quick stepper instead of the exact one");
+  command->add_option("--svg", arguments->svg, "Draw the balls' ways in the slalom: SVG + slalom.svg");
+  command->add_flag("--json", arguments->json, "Print JSON");
+  command->footer(
+      "Examples:\n  nonet ball-report --type 4 --json\n  nonet ball-report --skill slalom --trials 20 --svg "
+      "ways_\n  nonet ball-report --skill duel --set team.dribble.speed=1.2");
+  command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
+}
+
+}  // namespace nonet::app

@@ -1,0 +1,254 @@
+#include "nonet/lab/reports/ball_report.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "nonet/math/random.h"
+
+#include "lab/common/parallel.h"
+
+namespace nonet::lab {
+
+namespace {
+
+// All trials of one skill; every skill has the same seeds.
+template <class Trial>
+auto repeated(const BallReportSettings& settings, const Trial& trial) {
+  using Result = decltype(trial(std::uint64_t{}));
+  std::vector<Result> results(static_cast<std::size_t>(settings.trials));
+  const Random seeds(settings.seed);
+  inParallel(settings.trials, settings.threads, [&](int i) {
+    results[static_cast<std::size_t>(i)] = trial(seeds.fork(static_cast<std::uint64_t>(i)).next());
+  });
+  return results;
+}
+
+// The mean of what `value` says of the trials for which `counts`.
+template <class Result, class Value, class Counts>
+BallFigure figure(const char* key, const char* what, const std::vector<Result>& results, const Value& value,
+                  const Counts& counts) {
+  std::vector<double> sample;
+  for (const Result& result : results) {
+    if (counts(result)) sample.push_back(static_cast<double>(value(result)));
+  }
+  return {key, what, estimate(sample), static_cast<int>(sample.size())};
+}
+
+template <class Result, class Value>
+BallFigure figure(const char* key, const char* what, const std::vector<Result>& results, const Value& value) {
+  return figure(key, what, results, value, [](const Result&) { return true; });
+}
+
+// How near the ball was kept.
+void addKeeping(BallSkillReport& report, const std::string& skill, const std::vector<Dribble>& trials) {
+  const auto add = [&](const char* key, const char* what, const auto& value) {
+    BallFigure row = figure(key, what, trials, value);
+    row.key = skill + key;
+    report.figures.push_back(row);
+  };
+  add("_kept", "share never lost", [](const Dribble& t) { return t.arrived && !t.lost; });
+  add("_away", "share of the time lost", [](const Dribble& t) { return t.away; });
+  add("_apart_m", "m, farthest from the torso", [](const Dribble& t) { return t.apart; });
+  add("_aside_m", "m, farthest from the path", [](const Dribble& t) { return t.aside; });
+}
+
+template <class Result>
+BallSkillReport reportOf(const char* skill, const std::vector<Result>& results,
+                         std::vector<BallFigure> figures) {
+  BallSkillReport report;
+  report.skill = skill;
+  report.figures = std::move(figures);
+  report.trials = static_cast<int>(results.size());
+  for (const Result& result : results) {
+    report.falls += result.fell ? 1 : 0;
+    report.selfCollisions += result.selfCollisions;
+    report.simulated += result.simulated;
+  }
+  return report;
+}
+
+BallSkillReport measureApproach(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials = repeated(s, [&](auto seed) { return approachOnce(s.agent, server, seed); });
+  const auto arrived = [](const Approach& trial) { return trial.arrived; };
+  return reportOf(
+      "approach", trials,
+      {figure(
+           "approach_s", "s until in place", trials, [](const auto& t) { return t.time; }, arrived),
+       figure("approach_share", "share in place within 10 s", trials, arrived)});
+}
+
+BallSkillReport measureDribbling(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials = repeated(s, [&](auto seed) { return dribbleOnce(s.agent, server, seed); });
+  BallSkillReport report = reportOf(
+      "dribble", trials,
+      {figure("dribble_mps", "m/s of the ball over 10 m", trials, [](const auto& t) { return t.speed; })});
+  addKeeping(report, "dribble", trials);
+  return report;
+}
+
+BallSkillReport measureSlalom(const BallReportSettings& s, const sim::Settings& server, BallReport& all) {
+  auto trials = repeated(s, [&](auto seed) { return slalomOnce(s.agent, server, seed); });
+  BallSkillReport report = reportOf(
+      "slalom", trials,
+      {figure("slalom_mps", "m/s of the ball along the path", trials, [](const auto& t) { return t.speed; }),
+       figure("slalom_arrived", "share at the end within 60 s", trials,
+              [](const auto& t) { return t.arrived; })});
+  addKeeping(report, "slalom", trials);
+  all.slaloms = std::move(trials);
+  return report;
+}
+
+BallSkillReport measureDrive(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials = repeated(s, [&](auto seed) { return driveOnce(s.agent, server, seed); });
+  return reportOf(
+      "drive", trials,
+      {figure("drive_m", "m nearer to the goal in 15 s", trials, [](const auto& t) { return t.gained; }),
+       figure("drive_goals", "share with a goal", trials, [](const auto& t) { return t.goal; })});
+}
+
+BallSkillReport measureDuel(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials = repeated(s, [&](auto seed) { return duelOnce(s.agent, s.opponent, server, seed); });
+  return reportOf(
+      "duel", trials,
+      {figure("duel_share", "share won", trials, [](const auto& t) { return t.won; }),
+       figure("duel_open", "share undecided", trials, [](const auto& t) { return t.won == 0.5; })});
+}
+
+BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials = repeated(s, [&](auto seed) { return receiveOnce(s.agent, server, seed); });
+  return reportOf("receive", trials,
+                  {figure("receive_share", "share held", trials, [](const auto& t) { return t.held; }),
+                   figure("receive_rebound_m", "m from the robot after the touch", trials,
+                          [](const auto& t) { return t.rebound; })});
+}
+
+BallSkillReport measureRun(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials = repeated(s, [&](auto seed) { return runOnce(s.agent, server, seed); });
+  return reportOf(
+      "run", trials,
+      {figure("run_mps", "m/s beyond 3 m, for 3 s", trials, [](const auto& t) { return t.speed; }),
+       figure(
+           "stop_s", "s from the run to a stand", trials, [](const auto& t) { return t.stopTime; },
+           [](const auto& t) { return !t.fell; })});
+}
+
+BallSkillReport measure(const std::string& skill, const BallReportSettings& s, const sim::Settings& server,
+                        BallReport& all) {
+  if (skill == "approach") return measureApproach(s, server);
+  if (skill == "dribble") return measureDribbling(s, server);
+  if (skill == "slalom") return measureSlalom(s, server, all);
+  if (skill == "drive") return measureDrive(s, server);
+  if (skill == "duel") return measureDuel(s, server);
+  if (skill == "receive") return measureReceiving(s, server);
+  if (skill == "run") return measureRun(s, server);
+  throw std::runtime_error(
+      fmt::format("unknown ball skill '{}': use all or one of {}", skill, fmt::join(ballSkillNames(), ", ")));
+}
+
+}  // namespace
+
+std::vector<std::string> ballSkillNames() {
+  return {"approach", "dribble", "slalom", "drive", "duel", "receive", "run"};
+}
+
+BallReport measureBallSkills(const BallReportSettings& settings) {
+  sim::Settings server;
+  server.quickSolver = settings.quickSolver;
+  BallReport report;
+  const std::vector<std::string> names =
+      settings.skill == "all" ? ballSkillNames() : std::vector<std::string>{settings.skill};
+  for (const std::string& name : names) {
+    if (settings.progress) settings.progress(name);
+    report.skills.push_back(measure(name, settings, server, report));
+  }
+  return report;
+}
+
+std::string ballReportTable(const BallReport& report) {
+  std::string out = fmt::format("{:<10} {:<32} {:>8} {:>7} {:>7} {:>6} {:>6}\n", "skill", "measure", "mean",
+                                "+-", "trials", "falls", "fouls");
+  for (const BallSkillReport& skill : report.skills) {
+    for (const BallFigure& figure : skill.figures) {
+      const bool first = &figure == &skill.figures.front();
+      out += fmt::format("{:<10} {:<32} {:>8.3f} {:>7.3f} {:>7} {:>6} {:>6}\n", first ? skill.skill : "",
+                         figure.what, figure.value.mean, figure.value.ci95, figure.trials,
+                         first ? fmt::format("{}", skill.falls) : "",
+                         first ? fmt::format("{}", skill.selfCollisions) : "");
+    }
+  }
+  return out + "+-: half width of the 95 % interval; falls: trials with one; fouls: self-collisions\n";
+}
+
+std::string ballReportJson(const BallReport& report, const BallReportSettings& settings) {
+  nlohmann::ordered_json json;
+  json["type"] = settings.agent.robotType;
+  json["seed"] = settings.seed;
+  int trials = 0;
+  int falls = 0;
+  for (const BallSkillReport& skill : report.skills) {
+    for (const BallFigure& figure : skill.figures) {
+      json[figure.key] = {
+          {"mean", figure.value.mean}, {"ci95", figure.value.ci95}, {"trials", figure.trials}};
+    }
+    json["falls_of"][skill.skill] = skill.falls;
+    json["self_collisions"][skill.skill] = skill.selfCollisions;
+    trials += skill.trials;
+    falls += skill.falls;
+  }
+  json["falls"] = {{"mean", trials > 0 ? static_cast<double>(falls) / trials : 0.0}, {"trials", trials}};
+  return json.dump(2) + "\n";
+}
+
+std::string slalomSvg(const std::vector<Dribble>& slaloms) {
+  constexpr double kScale = 60.0;  // per m
+  constexpr double kLeft = 60.0;
+  constexpr double kMiddle = 200.0;
+  std::string out =
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 960 420' font-family='sans-serif' "
+      "font-size='13'>\n"
+      "<rect width='100%' height='100%' fill='white'/>\n<text x='20' y='24' font-size='16'>The ball's ways "
+      "in "
+      "the slalom: six turns of 60 degrees, 2 m apart</text>\n";
+  const auto polyline = [&](const auto& points, const char* color, const char* style) {
+    std::string text;
+    for (const Vector2& p : points)
+      text += fmt::format("{:.0f},{:.0f} ", kLeft + kScale * p.x(), kMiddle - kScale * p.y());
+    out += fmt::format("<polyline fill='none' stroke='{}' {} points='{}'/>\n", color, style, text);
+  };
+  bool drawn = false;
+  for (const Dribble& slalom : slaloms) {
+    if (slalom.path.corners.size() < 3) continue;
+    // All in one frame: from the begin along the middle line, the first turn to the right.
+    const std::vector<Vector2>& corners = slalom.path.corners;
+    const Vector2 middle = 0.5 * (corners[2] - corners[0]);
+    const Pose2 X_PW = Pose2(corners[0], std::atan2(middle.y(), middle.x())).inverse();
+    const double side = (X_PW * corners[1]).y() < 0.0 ? -1.0 : 1.0;
+    const auto inPath = [&](const Vector2& p) {
+      const Vector2 q = X_PW * p;
+      return Vector2(q.x(), side * q.y());
+    };
+    std::vector<Vector2> way;
+    for (const BallSample& sample : slalom.track) way.push_back(inPath(sample.ball));
+    polyline(way,
+             slalom.fell                      ? "#c33"
+             : slalom.lost || !slalom.arrived ? "#e90"
+                                              : "#27a",
+             "stroke-opacity='0.5'");
+    if (drawn) continue;
+    drawn = true;
+    std::vector<Vector2> path;
+    for (const Vector2& corner : corners) path.push_back(inPath(corner));
+    polyline(path, "#555", "stroke-dasharray='4 4'");
+  }
+  return out +
+         "<text x='20' y='400'>blue: kept within 0.5 m to the end; orange: lost; red: the robot fell; "
+         "dashed: "
+         "the path</text>\n</svg>\n";
+}
+
+}  // namespace nonet::lab

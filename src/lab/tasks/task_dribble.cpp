@@ -1,0 +1,56 @@
+// dribble: the ball along a straight line of ten metres and through a slalom, seen with the robot's own eyes
+// (lab/trial/ball_trial.h). The fitness is the ball's mean speed on both less 1 m/s for the share of the time
+// in which it is lost, 0.5 for a fall and 0.5 for a foul by collisions with oneself.
+#include "nonet/lab/trial/ball_trial.h"
+#include "nonet/math/random.h"
+
+#include "lab/tasks/tasks.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr double kAway = 1.0;  // m/s
+constexpr double kFall = 0.5;
+constexpr double kFoul = 0.5;
+
+class DribbleTask final : public Task {
+ public:
+  std::string_view name() const override { return "dribble"; }
+  std::string_view description() const override {
+    return "the ball kept at the feet along a straight line and through a slalom: fast, without a loss";
+  }
+  std::vector<std::string> searchedKeys() const override { return {"team.dribble."}; }
+  void prepare(agent::AgentParameters& parameters) const override { parameters.team.dribble.steer = true; }
+
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override {
+    const agent::AgentConfig agent = agentOf(parameters, settings);
+    const sim::Settings server = serverOf(settings);
+    Random random = Random(seed).fork(7);
+    const Dribble straight = dribbleOnce(agent, server, random.next());
+    const Dribble slalom = slalomOnce(agent, server, random.next());
+    return {.fitness = 0.5 * (worth(straight) + worth(slalom)),
+            .measures = {{"straight_mps", straight.speed},
+                         {"straight_away", straight.away},
+                         {"slalom_mps", slalom.speed},
+                         {"slalom_away", slalom.away},
+                         {"falls", (straight.fell ? 1.0 : 0.0) + (slalom.fell ? 1.0 : 0.0)},
+                         {"fouls", straight.selfCollisions + slalom.selfCollisions}}};
+  }
+
+ private:
+  static double worth(const Dribble& dribble) {
+    return dribble.speed - kAway * dribble.away - (dribble.fell ? kFall : 0.0) -
+           kFoul * dribble.selfCollisions;
+  }
+};
+
+}  // namespace
+
+const Task& dribbleTask() {
+  static const DribbleTask task;
+  return task;
+}
+
+}  // namespace nonet::lab
