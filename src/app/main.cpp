@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   nonet::app::addWalkReportCommand(app, exitCode);
   nonet::app::addRiseReportCommand(app, exitCode);
   nonet::app::addKickReportCommand(app, exitCode);
+  nonet::app::addSaveReportCommand(app, exitCode);
   nonet::app::addParamsCommand(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') checkCommand(app, argv[1]);
   try {

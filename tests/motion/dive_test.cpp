@@ -15,8 +15,10 @@ TEST_P(Goalkeeping, DivesReachToBothSidesAndTheRobotRises) {
   const TrialSetup setup = agentTrialSetup(GetParam());
   for (const model::Side side : {model::Side::Left, model::Side::Right}) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-      const Dive dive = diveAndRise(setup, side, seed);
-      EXPECT_GT(dive.reach.back(), 0.5);
+      const Dive dive = diveAndRise(setup, "dive", side, seed);
+      const Dive::Places& low = dive.barred.back()[0];
+      EXPECT_TRUE(low[8]) << "0.4 m aside";
+      EXPECT_TRUE(low[10]) << "0.5 m aside";
       EXPECT_TRUE(dive.stands);
       EXPECT_LE(dive.attempts, 3);
     }

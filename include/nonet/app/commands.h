@@ -22,6 +22,7 @@ void addSkillCommand(CLI::App& app, int& exitCode);
 void addWalkReportCommand(CLI::App& app, int& exitCode);
 void addRiseReportCommand(CLI::App& app, int& exitCode);
 void addKickReportCommand(CLI::App& app, int& exitCode);
+void addSaveReportCommand(CLI::App& app, int& exitCode);
 void addParamsCommand(CLI::App& app, int& exitCode);
 
 }  // namespace nonet::app

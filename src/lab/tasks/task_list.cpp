@@ -11,9 +11,9 @@ namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
   static const std::array tasks{
-      &goToTargetTask(), &surefootedTask(),       &standardCourseTask(), &sidestepTask(),
-      &duelTask(),       &sprintTask(),           &getupTask(),          &getupFrontTask(),
-      &getupBackTask(),  &kickTask("kick_power"), &diveTask(),           &quadraticTask(),
+      &goToTargetTask(), &surefootedTask(), &standardCourseTask(), &sidestepTask(),  &duelTask(),
+      &sprintTask(),     &getupTask(),      &getupFrontTask(),     &getupBackTask(), &kickTask("kick_power"),
+      &diveTask(),       &blockTask(),      &saveTask(),           &quadraticTask(),
   };
   return tasks;
 }

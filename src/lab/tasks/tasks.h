@@ -23,6 +23,8 @@ const Task& getupBackTask();
 /// The task for the kick with this name (any skill with the head of a kick; they all begin with "kick_").
 const Task& kickTask(std::string_view name);
 const Task& diveTask();
+const Task& blockTask();
+const Task& saveTask();
 const Task& quadraticTask();
 
 TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
