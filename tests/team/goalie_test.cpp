@@ -100,7 +100,7 @@ TEST(Goalie, SeesNoShotInABallThatMissesOrStops) {
 
 // By steps aside, without turning: the eyes stay on the ball and the dive begins from there.
 TEST(Goalie, StepsIntoTheWayOfAShotThatLeavesTime) {
-  const Scene scene = goalieScene({-6.0, 0.35}, {-9.5, 0.0});
+  const Scene scene = goalieScene({-6.0, 0.35}, {-11.0, 0.0});
   const Action action = scene.decideAs(Role::Goalie);
   EXPECT_EQ(action.reason.behavior, "guard goal");
   const auto* walk = std::get_if<motion::WalkVelocity>(&action.motion);
@@ -108,6 +108,13 @@ TEST(Goalie, StepsIntoTheWayOfAShotThatLeavesTime) {
   EXPECT_EQ(walk->velocity.translation.x(), 0.0);
   EXPECT_GT(walk->velocity.translation.y(), 0.5);
   EXPECT_EQ(walk->velocity.rotation, 0.0);
+}
+
+// A shot will soon lie in the goal: that is no reason to walk there.
+TEST(Goalie, DoesNotClaimAShot) {
+  const Scene scene = goalieScene({-10.0, 0.3}, {-9.0, 0.0});
+  EXPECT_TRUE(comingShot(scene.situation(Role::Goalie)).has_value());
+  EXPECT_FALSE(scene.situation(Role::Goalie).claims);
 }
 
 TEST(Goalie, NarrowsTheAngle) {
