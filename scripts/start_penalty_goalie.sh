@@ -7,6 +7,7 @@ set -euo pipefail
 . "$(dirname "$0")/common.sh"
 parseArguments "$@"
 findBinary
-launch "${team}_goalie" --unum 1 --type 0 "${options[@]}"
+# Who leaves its area gives away a goal (server facts 4.11).
+launch "${team}_goalie" --unum 1 --type 0 --set team.goalie.stayInArea=true "${options[@]}"
 awaitAgents
 echo "started the penalty goalie of team $team for $host:$port; log in $logs/${team}_goalie.log"

@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   nonet::app::addKickReportCommand(app, exitCode);
   nonet::app::addBallReportCommand(app, exitCode);
   nonet::app::addEnvCommand(app, exitCode);
+  nonet::app::addSaveReportCommand(app, exitCode);
   nonet::app::addParamsCommand(app, exitCode);
   nonet::app::addSoakCommand(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') checkCommand(app, argv[1]);

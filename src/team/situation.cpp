@@ -6,6 +6,7 @@
 
 #include "nonet/math/direction.h"
 #include "nonet/team/ball_choice.h"
+#include "nonet/team/goalie.h"
 
 namespace nonet::team {
 
@@ -30,12 +31,6 @@ Formation placesFor(const world::WorldState& world, const TeamParameters& parame
         std::max(formation.stopperBehind, parameters.clearOfOpponentKick + formation.apart);
   }
   return formationFor(world.ball.p_FB.head<2>(), kMaxAssigned, world.field, formation, parameters.variant);
-}
-
-// Out of the way of the goal, to the side on which the ball is.
-Vector2 clearanceTarget(const Situation& s) {
-  const double aside = s.parameters.goalie.clearanceAside;
-  return {0.0, s.ball().y() >= 0.0 ? aside : -aside};
 }
 
 // Straight away from the own goal.
@@ -110,25 +105,6 @@ Situation assess(const world::WorldState& world, const TeamParameters& parameter
   if (world::isOwnSetPiece(s.phase()))
     s.setPlay = setPlayFor(s.phase(), s.ball(), world.field, parameters.setPlay);
   return s;
-}
-
-bool goalieWantsBall(const Situation& s, bool claims) {
-  if (s.phase() == world::Phase::OwnGoalKick) return true;
-  if (s.phase() != world::Phase::PlayOn) return false;
-  const GoalieParameters& p = s.parameters.goalie;
-  const Vector2 goal(-0.5 * s.world.field.length, 0.0);
-  const double reach = p.attackDistance * (claims ? p.keepClaim : 1.0);
-  if ((s.forecast.at(p.claimAhead) - goal).norm() > reach) return false;
-  // A field player that is sooner there and stands well keeps it.
-  const Vector2 target = clearanceTarget(s);
-  const PaceParameters& pace = s.parameters.pace;
-  const double own = timeToBall({s.world.self.X_FR, true, false}, s.forecast, target, pace);
-  const double margin = (claims ? -1.0 : p.claimMargin) * s.parameters.keepBallTime;
-  const auto& mates = s.world.teammates;
-  return std::none_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
-    const Runner runner{mate.X_FP, mate.headingKnown, mate.fallen};
-    return mate.known && timeToBall(runner, s.forecast, target, pace) < own + margin;
-  });
 }
 
 std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {

@@ -15,7 +15,8 @@ namespace {
 constexpr double kPositionNoise = 0.002;  // m per cycle
 constexpr double kRestNoise = 0.02;       // m/s per root second, of the velocity
 constexpr double kRollNoise = 0.1;        // m/s per root second per m/s
-constexpr double kKickSpeed = 3.0;        // m/s, sigma of what a kick adds
+constexpr double kKickSpeed = 6.0;        // m/s, sigma of what a kick adds
+constexpr double kKickLift = 4.0;         // m/s, of that upwards
 constexpr double kKickGate = 14.0;        // squared sigmas
 constexpr double kRestartGate = 30.0;
 constexpr double kUnseenGrowth = 0.3;  // m/s
@@ -139,6 +140,21 @@ void BallTracker::measureHeight(double z, double variance) {
   height_ = std::max(height_, 0.0);
 }
 
+// A kick at some moment of the last `within` seconds, any as likely as another, has added a velocity v; at
+// time t after it the ball is v t away. The first two moments of both: E[t] = within / 2, E[t^2] = within^2
+// / 3. So one sighting tells the direction, and the speed roughly.
+void BallTracker::kicked(double within) {
+  const double speed = kKickSpeed * kKickSpeed;
+  covariance_.bottomRightCorner<2, 2>() += Matrix2::Identity() * speed;
+  covariance_.topLeftCorner<2, 2>() += Matrix2::Identity() * speed * within * within / 3.0;
+  covariance_.topRightCorner<2, 2>() = covariance_.bottomLeftCorner<2, 2>() =
+      Matrix2::Identity() * speed * within / 2.0;
+  const double lift = kKickLift * kKickLift;
+  heightCovariance_(1, 1) += lift;
+  heightCovariance_(0, 0) += lift * within * within / 3.0;
+  heightCovariance_(0, 1) = heightCovariance_(1, 0) = lift * within / 2.0;
+}
+
 void BallTracker::measure(const Vector3& p_FB, const Matrix3& covariance, double time) {
   const Matrix2 plane = covariance.topLeftCorner<2, 2>();
   if (!started_) {
@@ -149,11 +165,7 @@ void BallTracker::measure(const Vector3& p_FB, const Matrix3& covariance, double
   if (mismatch(measured, plane) > kKickGate) {
     // Somebody has kicked it since the last sighting, or put it somewhere else.
     lastKick_ = time;
-    covariance_.bottomRightCorner<2, 2>() += Matrix2::Identity() * kKickSpeed * kKickSpeed;
-    const double reach = kKickSpeed * std::clamp(time - lastSeen_, kCycleTime, 0.2);
-    covariance_.topLeftCorner<2, 2>() += Matrix2::Identity() * reach * reach;
-    covariance_.topRightCorner<2, 2>().setZero();
-    covariance_.bottomLeftCorner<2, 2>().setZero();
+    kicked(std::clamp(time - lastSeen_, kCycleTime, 0.2));
     if (mismatch(measured, plane) > kRestartGate) {
       start(p_FB, plane);
       return;

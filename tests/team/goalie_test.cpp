@@ -1,6 +1,10 @@
 // When the goalkeeper dives and when it goes to the ball: a dive costs the time of rising, so everything that
 // a dive does not change must not cause one.
+#include "nonet/team/goalie.h"
+
 #include <gtest/gtest.h>
+
+#include "nonet/world/ball_law.h"
 
 #include "scene.h"
 
@@ -28,6 +32,125 @@ TEST(Goalie, DivesForAShotBesideIt) {
     EXPECT_EQ(std::get<motion::PlaySkill>(action.motion).side,
               side > 0.0 ? model::Side::Left : model::Side::Right);
   }
+}
+
+// Nearer balls along the ground are blocked, without a fall; high ones are not.
+TEST(Goalie, BlocksWhatPassesNear) {
+  const auto skill = [](double aside, double height, double lift) {
+    Scene scene = goalieScene({-13.2, aside}, {-4.0, 0.0});
+    scene.world.ball.p_FB.z() = height;
+    scene.world.ball.v_FB.z() = lift;
+    const Action action = scene.decideAs(Role::Goalie);
+    const auto* request = std::get_if<motion::PlaySkill>(&action.motion);
+    return std::string(request == nullptr ? "" : request->name.view());
+  };
+  EXPECT_EQ(skill(0.27, world::kBallRestHeight, 0.0), "block");
+  EXPECT_EQ(skill(-0.27, world::kBallRestHeight, 0.0), "block");
+  EXPECT_EQ(skill(0.6, world::kBallRestHeight, 0.0), "dive");
+  EXPECT_EQ(skill(0.27, 0.4, 1.0), "dive");
+  EXPECT_EQ(skill(0.0, world::kBallRestHeight, 0.0), "") << "comes to it";
+  EXPECT_EQ(skill(0.6, 1.0, 3.0), "") << "flies over the goal";
+}
+
+TEST(Goalie, DoesNotThrowItselfAtWhatItHasNotSeen) {
+  Scene scene = goalieScene({-12.5, 0.7}, {-4.0, 0.0});
+  EXPECT_EQ(scene.decideAs(Role::Goalie).reason.behavior, "dive");
+  scene.world.ball.lastSeen = scene.world.time - 0.5;
+  EXPECT_NE(scene.decideAs(Role::Goalie).reason.behavior, "dive");
+}
+
+// Oracle: the ball's law step by step, turned into the robot's frame.
+TEST(Goalie, ForeseesWhereAShotPasses) {
+  for (const double heading : {-0.6, 0.0, 0.6}) {
+    for (const double lift : {0.0, 2.0}) {
+      Scene scene = goalieScene({-10.0, 1.0}, {-7.0, -1.0});
+      scene.world.ball.v_FB.z() = lift;
+      scene.stand(Pose2(-14.4, 0.1, heading));
+      const Situation situation = scene.situation(Role::Goalie);
+      const std::optional<ComingShot> shot = comingShot(situation);
+      ASSERT_TRUE(shot);
+      world::BallMotion ball{scene.world.ball.p_FB, scene.world.ball.v_FB};
+      const Pose2 X_RF = scene.world.self.X_FR.inverse();
+      double time = 0.0;
+      Vector2 place = X_RF * Vector2(ball.p_FB.head<2>());
+      while (place.x() > 0.0) {
+        world::stepBall(ball, kCycleTime);
+        time += kCycleTime;
+        place = X_RF * Vector2(ball.p_FB.head<2>());
+      }
+      EXPECT_NEAR(shot->time, time, kCycleTime);
+      EXPECT_NEAR(shot->aside, place.y(), 0.04);
+      EXPECT_NEAR(shot->height, ball.p_FB.z(), 0.08);
+    }
+  }
+}
+
+TEST(Goalie, SeesNoShotInABallThatMissesOrStops) {
+  const auto comes = [](const Vector2& place, const Vector2& speed) {
+    const Scene scene = goalieScene(place, speed);
+    const Situation situation = scene.situation(Role::Goalie);
+    return comingShot(situation).has_value();
+  };
+  EXPECT_TRUE(comes({-12.5, 0.7}, {-4.0, 0.0}));
+  EXPECT_FALSE(comes({-12.5, 0.7}, {4.0, 0.0})) << "goes away";
+  EXPECT_FALSE(comes({-12.5, 0.7}, {-4.0, 2.5})) << "passes the post";
+  EXPECT_FALSE(comes({-10.0, 0.7}, {-4.0, 0.0})) << "stops";
+  EXPECT_FALSE(comes({-14.6, 0.7}, {-4.0, 0.0})) << "is past the goalie";
+}
+
+// By steps aside, without turning: the eyes stay on the ball and the dive begins from there.
+TEST(Goalie, StepsIntoTheWayOfAShotThatLeavesTime) {
+  const Scene scene = goalieScene({-6.0, 0.35}, {-11.0, 0.0});
+  const Action action = scene.decideAs(Role::Goalie);
+  EXPECT_EQ(action.reason.behavior, "guard goal");
+  const auto* walk = std::get_if<motion::WalkVelocity>(&action.motion);
+  ASSERT_NE(walk, nullptr);
+  EXPECT_EQ(walk->velocity.translation.x(), 0.0);
+  EXPECT_GT(walk->velocity.translation.y(), 0.5);
+  EXPECT_EQ(walk->velocity.rotation, 0.0);
+}
+
+// A shot will soon lie in the goal: that is no reason to walk there.
+TEST(Goalie, DoesNotClaimAShot) {
+  const Scene scene = goalieScene({-10.0, 0.3}, {-9.0, 0.0});
+  EXPECT_TRUE(comingShot(scene.situation(Role::Goalie)).has_value());
+  EXPECT_FALSE(scene.situation(Role::Goalie).claims);
+}
+
+TEST(Goalie, NarrowsTheAngle) {
+  const GoalieParameters parameters;
+  const world::FieldGeometry field;
+  for (const Vector2& ball : {Vector2(-12.0, 2.0), Vector2(-5.0, -4.0), Vector2(0.0, 0.0)}) {
+    const Pose2 place = guardPlace(ball, field, parameters);
+    const Vector2 goal(-15.0, 0.0);
+    const Vector2 way = ball - goal;
+    const Vector2 stands = place.translation - goal;
+    EXPECT_NEAR(way.x() * stands.y() - way.y() * stands.x(), 0.0, 1e-9) << "on the line to the goal's middle";
+    EXPECT_GT(way.dot(stands), 0.0);
+    EXPECT_LE(stands.norm(), parameters.outOfGoal + 1e-9);
+    EXPECT_NEAR((place.inverse() * ball).y(), 0.0, 1e-9) << "faces it";
+  }
+}
+
+TEST(Goalie, LeavesTheBallOfAnOpponentThatIsSoonerUnlessItIsAtTheGoal) {
+  Scene scene = goalieScene({-13.3, 0.3}, {0.0, 0.0});
+  EXPECT_TRUE(scene.situation(Role::Goalie).claims) << "alone";
+  Scene::put(scene.world.opponents[9], Pose2(-13.0, 0.4, kPi));
+  EXPECT_FALSE(scene.situation(Role::Goalie).claims) << "the opponent has it";
+  Scene::put(scene.world.opponents[9], Pose2(-9.0, 0.4, kPi));
+  EXPECT_TRUE(scene.situation(Role::Goalie).claims) << "the opponent is far";
+  scene.putBall({-14.2, 0.3});
+  Scene::put(scene.world.opponents[9], Pose2(-13.9, 0.4, kPi));
+  EXPECT_TRUE(scene.situation(Role::Goalie).claims) << "at the goal it is fought for";
+}
+
+TEST(Goalie, StaysInItsAreaInAPenaltyShootOut) {
+  Scene scene = goalieScene({-13.4, 0.3}, {0.0, 0.0});
+  EXPECT_TRUE(scene.situation(Role::Goalie).claims);
+  scene.parameters.goalie.stayInArea = true;
+  EXPECT_FALSE(scene.situation(Role::Goalie).claims);
+  scene.putBall({-14.2, 0.3});
+  EXPECT_TRUE(scene.situation(Role::Goalie).claims);
 }
 
 TEST(Goalie, DoesNotDiveWhereThatChangesNothing) {
@@ -65,7 +188,7 @@ TEST(Goalie, StaysBetweenBallAndGoal) {
     const Action action = scene.decideAs(Role::Goalie);
     EXPECT_EQ(action.reason.behavior, "guard goal");
     const Vector2 place = goalOf(scene, action);
-    EXPECT_NEAR((place - Vector2(-15.0, 0.0)).norm(), 0.6, 0.15);
+    EXPECT_NEAR((place - Vector2(-15.0, 0.0)).norm(), scene.parameters.goalie.outOfGoal, 0.15);
     EXPECT_GE(place.y() * y, 0.0);
   }
 }

@@ -25,6 +25,7 @@ void addRiseReportCommand(CLI::App& app, int& exitCode);
 void addKickReportCommand(CLI::App& app, int& exitCode);
 void addBallReportCommand(CLI::App& app, int& exitCode);
 void addEnvCommand(CLI::App& app, int& exitCode);
+void addSaveReportCommand(CLI::App& app, int& exitCode);
 void addParamsCommand(CLI::App& app, int& exitCode);
 void addSoakCommand(CLI::App& app, int& exitCode);
 

@@ -6,95 +6,11 @@
 #include "nonet/team/challenge_parameters.h"
 #include "nonet/team/carry_parameters.h"
 #include "nonet/team/choice_parameters.h"
+#include "nonet/team/goalie_parameters.h"
 #include "nonet/team/place_parameters.h"
 #include "nonet/team/variant_parameters.h"
 
 namespace nonet::team {
-
-/// The goalkeeper (goalie.h, behaviors/dive.cpp, behaviors/guard_goal.cpp).
-struct GoalieParameters {
-  double outOfGoal = 0.6;
-  double attackDistance = 2.0;
-  double diveTime = 1.2;
-  double diveReach = 0.2;
-  double sideStepSpeed = 0.2;
-  double diveFarthest = 0.9;
-  double keepClaim = 1.3;
-  double claimAhead = 1.0;
-  double claimMargin = 0.5;
-  double clearanceAside = 6.0;
-  double diveBallSpeed = 0.5;
-  double postMargin = 0.05;
-  double inFrontOfLine = 0.2;
-  double rollingSpeed = 0.2;
-  double room = 0.4;
-  bool dive = true;
-
-  template <class Self, class Visitor>
-  static void describe(Self& self, Visitor&& visit) {
-    using namespace config;
-    visit({"outOfGoal", Unit::Metre, {0, 5}, search(0.2, 1.5), "Stands this far in front of the goal line"},
-          self.outOfGoal);
-    visit({"attackDistance",
-           Unit::Metre,
-           {0, 10},
-           search(0.5, 4),
-           "Goes to a ball that is this near to the goal centre"},
-          self.attackDistance);
-    visit({"diveTime", Unit::Second, {0, 5}, search(0.4, 2), "Dives when the ball arrives within this time"},
-          self.diveTime);
-    visit({"diveReach", Unit::Metre, {0, 2}, search(0.1, 0.5), "A ball passing farther aside needs a dive"},
-          self.diveReach);
-    visit({"sideStepSpeed", Unit::MetrePerSecond, {0, 2}, search(0, 0.6), "What a step aside adds to it"},
-          self.sideStepSpeed);
-    visit({"diveFarthest", Unit::Metre, {0, 3}, search(0.5, 1.2), "A ball passing farther is out of reach"},
-          self.diveFarthest);
-    visit({"keepClaim",
-           Unit::None,
-           {1, 5},
-           fixed,
-           "An own claim of the ball holds up to this multiple of attackDistance"},
-          self.keepClaim);
-    visit({"claimAhead", Unit::Second, {0, 10}, fixed, "Claims the ball by where it will be after this time"},
-          self.claimAhead);
-    visit({"claimMargin",
-           Unit::None,
-           {0, 5},
-           fixed,
-           "A field player must be sooner at the ball by less than this share of keepBallTime for the goalie "
-           "to claim it"},
-          self.claimMargin);
-    visit({"clearanceAside",
-           Unit::Metre,
-           {0, 20},
-           fixed,
-           "Clears the ball to a point of the halfway line this far beside the middle"},
-          self.clearanceAside);
-    visit({"diveBallSpeed",
-           Unit::MetrePerSecond,
-           {0, 10},
-           fixed,
-           "Dives only for a ball that comes faster than this towards the goal line"},
-          self.diveBallSpeed);
-    visit({"postMargin",
-           Unit::Metre,
-           {0, 1},
-           fixed,
-           "A shot that passes this far outside the post is still one for the goalie"},
-          self.postMargin);
-    visit({"inFrontOfLine", Unit::Metre, {0, 5}, fixed, "Never stands nearer to the goal line"},
-          self.inFrontOfLine);
-    visit({"rollingSpeed",
-           Unit::MetrePerSecond,
-           {0, 10},
-           fixed,
-           "A ball faster than this towards the goal line is met where it will pass"},
-          self.rollingSpeed);
-    visit({"room", Unit::Metre, {0, 5}, fixed, "Room left to others, and to a ball that it may not touch"},
-          self.room);
-    visit({"dive", Unit::None, {0, 1}, fixed, "Whether to dive at all"}, self.dive);
-  }
-};
 
 /// How fast players and ball are, for comparing the ways to the ball (play_time.h).
 struct PaceParameters {

@@ -43,6 +43,7 @@ class BallTracker {
   void measure(const Vector3& p_FB, const Matrix3& covariance, double time);
   double kalman(const Vector2& measured, const Matrix2& covariance);
   double mismatch(const Vector2& measured, const Matrix2& covariance) const;
+  void kicked(double within);
   void measureHeight(double z, double variance);
 
   bool started_ = false;

@@ -23,6 +23,8 @@ std::span<const Task* const> registeredTasks() {
       &swingTask("power"),
       &kickTask("kick_power"),
       &diveTask(),
+      &blockTask(),
+      &saveTask(),
       &approachTask(),
       &dribbleTask(),
       &receiveTask(),

@@ -29,6 +29,8 @@ const Task& diveTask();
 const Task& approachTask();
 const Task& dribbleTask();
 const Task& receiveTask();
+const Task& blockTask();
+const Task& saveTask();
 const Task& quadraticTask();
 
 TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,

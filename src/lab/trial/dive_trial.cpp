@@ -1,7 +1,8 @@
 #include "nonet/lab/trial/dive_trial.h"
 
 #include <algorithm>
-#include <string_view>
+#include <cmath>
+#include <vector>
 
 namespace nonet::lab {
 
@@ -10,21 +11,56 @@ namespace {
 using model::Side;
 using motion::MotionRequest;
 
-constexpr double kLow = 0.12;         // m: a part whose middle is below it stops a rolling ball
+constexpr double kBallRadius = 0.042;
+constexpr double kSure = 0.01;        // m by which the ball must meet the robot
 constexpr double kLongestDive = 4.0;  // s
 constexpr double kLongestRise = 12.0;
 constexpr double kLasts = 0.6;    // s that a stand must last
 constexpr double kUpright = 0.2;  // rad
 
-double reachOf(RobotTrial& trial, const Pose2& start, Side side) {
-  const double sign = side == Side::Left ? 1.0 : -1.0;
-  double reach = 0.0;
-  for (const model::BodySpec& body : trial.model().bodies()) {
-    if (!body.collider) continue;
-    const Vector3 p_F = trial.physics().bodyPosition(trial.robot(), body.id).cast<double>();
-    if (p_F.z() < kLow) reach = std::max(reach, sign * (start.inverse() * Vector2(p_F.head<2>())).y());
+/// A ball with its centre here touches one of the robot's parts.
+struct Disc {
+  double aside;   // m, to the side of the dive
+  double height;  // m
+  double radius;  // m
+};
+
+// A part as three discs along its longest axis, each as wide as its middle axis.
+void addDiscs(const RobotTrial& trial, const sim::World& world, const model::BodySpec& body,
+              const Pose2& start, double sign, std::vector<Disc>& discs) {
+  const sim::ScenePose& pose = world.bodyPose(trial.robot(), body.id);
+  Vector3 half = Vector3::Constant(body.shape.size.x());
+  if (body.shape.kind == model::ShapeKind::Box) half = 0.5 * body.shape.size;
+  if (body.shape.kind == model::ShapeKind::Capsule) half.z() += 0.5 * body.shape.size.y();
+  // The scene's axes: x right, y forward.
+  const Vector3 extent(half.y(), half.x(), half.z());
+  Eigen::Index longest = 0;
+  extent.maxCoeff(&longest);
+  std::array<double, 3> sorted{extent.x(), extent.y(), extent.z()};
+  std::sort(sorted.begin(), sorted.end());
+  const double radius = sorted[1];
+  const Vector3 along = pose.rotation.cast<double>().col(longest) * (sorted[2] - radius);
+  for (const double share : {-1.0, 0.0, 1.0}) {
+    const Vector3 p = pose.position.cast<double>() + share * along;
+    discs.push_back({sign * (start.inverse() * Vector2(p.head<2>())).y(), p.z(), radius});
   }
-  return reach;
+}
+
+std::array<Dive::Places, Dive::kHeights.size()> barredNow(RobotTrial& trial, const Pose2& start, Side side) {
+  std::vector<Disc> discs;
+  const double sign = side == Side::Left ? 1.0 : -1.0;
+  for (const model::BodySpec& body : trial.model().bodies())
+    if (body.collider) addDiscs(trial, trial.physics(), body, start, sign, discs);
+  std::array<Dive::Places, Dive::kHeights.size()> barred{};
+  for (std::size_t h = 0; h < Dive::kHeights.size(); ++h) {
+    for (int i = 0; i < Dive::kPlaces; ++i) {
+      barred[h][static_cast<std::size_t>(i)] = std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) {
+        const double distance = std::hypot(disc.aside - Dive::placeAt(i), disc.height - Dive::kHeights[h]);
+        return distance < disc.radius + kBallRadius - kSure;
+      });
+    }
+  }
+  return barred;
 }
 
 void rise(RobotTrial& trial, Dive& dive) {
@@ -44,7 +80,7 @@ void rise(RobotTrial& trial, Dive& dive) {
 
 }  // namespace
 
-Dive diveAndRise(const TrialSetup& setup, Side side, std::uint64_t seed) {
+Dive diveAndRise(const TrialSetup& setup, std::string_view name, Side side, std::uint64_t seed) {
   TrialSetup own = setup;
   own.seed = seed;
   RobotTrial trial(own);
@@ -54,14 +90,14 @@ Dive diveAndRise(const TrialSetup& setup, Side side, std::uint64_t seed) {
   step.velocity = Pose2(0.0, random.uniform(-0.2, 0.2), random.uniform(-0.5, 0.5));
   trial.run(step, random.uniform(0.0, 0.6));  // a goalie is seldom quite still
   const Pose2 start = trial.pose();
-  const motion::PlaySkill request{std::string_view("dive"), side};
+  const motion::PlaySkill request{name, side};
   Dive dive;
   const double begin = trial.time();
-  std::size_t next = 0;
+  int next = 0;
   while (trial.time() - begin < kLongestDive && !trial.motion().state().skillFinished) {
     trial.step(request);
-    if (next == Dive::kTimes.size() || trial.time() - begin < Dive::kTimes[next] - 1e-6) continue;
-    dive.reach[next] = reachOf(trial, start, side);
+    if (next == Dive::kTimes || trial.time() - begin < Dive::timeAt(next) - 1e-6) continue;
+    dive.barred[static_cast<std::size_t>(next)] = barredNow(trial, start, side);
     ++next;
   }
   rise(trial, dive);

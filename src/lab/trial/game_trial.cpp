@@ -137,16 +137,28 @@ struct GameTrial::Implementation {
     for (Entry& entry : entries) {
       const protocol::Percept* percept = simulation.sense(entry.handle);
       if (percept == nullptr) continue;
-      std::visit([&](auto& mind) { simulation.act(entry.handle, mind->step(*percept)); }, entry.mind);
+      const protocol::Effectors& answer = std::visit(
+          [&](auto& mind) -> const protocol::Effectors& { return mind->step(*percept); }, entry.mind);
+      if (!answer.init) {
+        simulation.act(entry.handle, answer);
+        continue;
+      }
+      protocol::Effectors entered = answer;  // its number it has already
+      entered.init.reset();
+      simulation.act(entry.handle, entered);
     }
     simulation.step();
     ++cycles;
   }
 
+  void throwBall(const Vector3& place, const Vector3& velocity) {
+    simulation.trainer(fmt::format("(ball (pos {} {} {})(vel {} {} {}))", place.x(), place.y(), place.z(),
+                                   velocity.x(), velocity.y(), velocity.z()));
+  }
+
   void putBall(const GameSituation& situation, const Vector2& velocity) {
-    const double radius = simulation.settings().ballRadius;
-    simulation.trainer(fmt::format("(ball (pos {} {} {})(vel {} {} 0))", situation.ball.x(),
-                                   situation.ball.y(), radius, velocity.x(), velocity.y()));
+    throwBall({situation.ball.x(), situation.ball.y(), simulation.settings().ballRadius},
+              {velocity.x(), velocity.y(), 0.0});
   }
 
   // The ball lies where it will be: before the kick-off the referee puts it back to the centre spot.
@@ -158,10 +170,14 @@ struct GameTrial::Implementation {
     }
   }
 
+  void setPlayMode(protocol::PlayMode playMode) {
+    simulation.trainer(fmt::format("(playMode {})", protocol::playModeName(playMode)));
+  }
+
   // From here on it counts.
   void begin(const GameSituation& situation) {
     putBall(situation, situation.ballVelocity);
-    simulation.trainer(fmt::format("(playMode {})", protocol::playModeName(situation.playMode)));
+    setPlayMode(situation.playMode);
     cycles = 0;
     foulsBefore = simulation.fouls().size();
   }
@@ -186,6 +202,13 @@ void GameTrial::step() {
 void GameTrial::run(double seconds) {
   const long cycles = std::lround(seconds / kCycleTime);
   for (long i = 0; i < cycles; ++i) step();
+}
+
+void GameTrial::throwBall(const Vector3& place, const Vector3& velocity) {
+  implementation_->throwBall(place, velocity);
+}
+void GameTrial::setPlayMode(protocol::PlayMode playMode) {
+  implementation_->setPlayMode(playMode);
 }
 
 double GameTrial::time() const {
@@ -222,6 +245,9 @@ const sim::Simulation& GameTrial::simulation() const {
 const world::WorldState& GameTrial::belief(std::size_t player) const {
   return std::visit([](const auto& mind) -> const world::WorldState& { return mind->world(); },
                     implementation_->entries.at(player).mind);
+}
+const team::Action& GameTrial::action(std::size_t player) const {
+  return std::get<std::unique_ptr<agent::Agent>>(implementation_->entries.at(player).mind)->action();
 }
 
 }  // namespace nonet::lab

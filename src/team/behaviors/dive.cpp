@@ -1,31 +1,45 @@
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "nonet/team/behaviors.h"
-#include "nonet/world/ball_law.h"
+#include "nonet/team/goalie.h"
 
 namespace nonet::team {
+
+namespace {
+
+// The body falls through all angles from upright to the ground: a ball half as far aside as it is high is met
+// sooner than one that rolls.
+double timeToMeet(const ComingShot& shot, const GoalieParameters& p) {
+  const double angle = std::atan2(std::abs(shot.aside), shot.height) / (0.5 * kPi);
+  // At 45 degrees highDiveTime, on the ground diveTime, upright nothing.
+  return angle < 0.5 ? 2.0 * angle * p.highDiveTime
+                     : p.highDiveTime + (2.0 * angle - 1.0) * (p.diveTime - p.highDiveTime);
+}
+
+}  // namespace
 
 // A dive costs the time of rising: only for a ball that goes into the goal, and too far aside to step there.
 std::optional<Action> dive(const Situation& s) {
   const GoalieParameters& p = s.parameters.goalie;
-  const world::FieldGeometry& field = s.world.field;
-  const world::BallMotion ball{s.world.ball.p_FB, s.world.ball.v_FB};
   const bool open = s.role == Role::Goalie && s.phase() == world::Phase::PlayOn;
-  if (!p.dive || !open || ball.v_FB.x() > -p.diveBallSpeed) return std::nullopt;
-  const auto atGoal = world::crossingOfLine(ball, -0.5 * field.length);
-  if (!atGoal || std::abs(atGoal->y) > 0.5 * field.goalWidth + p.postMargin ||
-      atGoal->height > field.goalHeight)
-    return std::nullopt;
-  const Pose2& X_FR = s.world.self.X_FR;
-  const auto atUs = world::crossingOfLine(ball, X_FR.translation.x());
-  if (!atUs || atUs->time > p.diveTime) return std::nullopt;
-  const double aside = (X_FR.inverse() * Vector2(X_FR.translation.x(), atUs->y)).y();
-  const double stepped = p.diveReach + p.sideStepSpeed * atUs->time;
-  if (std::abs(aside) < stepped || std::abs(aside) > p.diveFarthest) return std::nullopt;
-  const bool left = aside > 0.0;
-  return Action(motion::PlaySkill{std::string_view("dive"), left ? model::Side::Left : model::Side::Right},
-                left ? "left" : "right");
+  if (!p.dive || !open || s.world.time - s.world.ball.lastSeen > p.oldestSight) return std::nullopt;
+  const std::optional<ComingShot> shot = comingShot(s);
+  if (!shot) return std::nullopt;
+  const double aside = std::abs(shot->aside);
+  const double stepped = p.diveReach + p.sideStepSpeed * std::max(0.0, shot->time - p.stepDelay);
+  if (aside < stepped || aside > p.diveFarthest) return std::nullopt;
+  const bool rough = s.world.time - s.world.ball.lastKick < p.secondLook;
+  if (rough && shot->time > p.urgent) return std::nullopt;
+  const bool block = aside < p.blockReach && shot->height < p.blockHeight;
+  if (shot->time > (block ? p.blockTime : timeToMeet(*shot, p))) return std::nullopt;
+  const bool left = shot->aside > 0.0;
+  return Action(motion::PlaySkill{std::string_view(block ? "block" : "dive"),
+                                  left ? model::Side::Left : model::Side::Right},
+                block  ? "block"
+                : left ? "left"
+                       : "right");
 }
 
 }  // namespace nonet::team

@@ -52,6 +52,10 @@ class GameTrial {
   /// One cycle of 20 ms.
   void step();
   void run(double seconds);
+  /// Puts the ball there (world, m) with this velocity and without spin, as a trainer can.
+  void throwBall(const Vector3& place, const Vector3& velocity);
+  /// The referee changes to this mode at once.
+  void setPlayMode(protocol::PlayMode playMode);
 
   // -- truth; players by their place in the situation
   double time() const;                    // s since the trial began
@@ -67,6 +71,8 @@ class GameTrial {
 
   // -- belief, in the own field frame of the player
   const world::WorldState& belief(std::size_t player) const;
+  /// What a player without a mind of the trial's decided in the last step.
+  const team::Action& action(std::size_t player) const;
 
  private:
   struct Implementation;

@@ -1,0 +1,28 @@
+// What the goalie's behaviours share (behaviors/guard_goal.cpp, dive.cpp, block.cpp): its place, and the shot
+// that comes.
+#pragma once
+
+#include <optional>
+
+#include "nonet/math/pose2.h"
+#include "nonet/team/goalie_parameters.h"
+#include "nonet/team/situation.h"
+
+namespace nonet::team {
+
+/// Where the goalie waits while the ball is at p_FB, facing it; own field frame, m.
+Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters);
+
+/// A ball that will be in the goal unless the goalie meets it: where it passes the robot.
+struct ComingShot {
+  double time = 0.0;    // s from now until it crosses the robot's lateral axis
+  double aside = 0.0;   // m along that axis, left positive
+  double height = 0.0;  // m, of the ball's centre there
+};
+std::optional<ComingShot> comingShot(const Situation& situation);
+
+/// Where the goalie's own kicks go: out of the way of the goal, to the side on which the ball is; own field
+/// frame, m.
+Vector2 clearanceTarget(const Situation& situation);
+
+}  // namespace nonet::team

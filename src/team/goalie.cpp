@@ -1,0 +1,89 @@
+#include "nonet/team/goalie.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nonet/world/ball_law.h"
+
+namespace nonet::team {
+
+namespace {
+
+Vector2 ownGoal(const world::FieldGeometry& field) {
+  return {-0.5 * field.length, 0.0};
+}
+
+world::BallMotion inFrame(const Pose2& X_RF, const world::BallMotion& ball) {
+  const Vector2 p = X_RF * Vector2(ball.p_FB.head<2>());
+  const Vector2 v = Pose2(0.0, 0.0, X_RF.rotation) * Vector2(ball.v_FB.head<2>());
+  return {{p.x(), p.y(), ball.p_FB.z()}, {v.x(), v.y(), ball.v_FB.z()}};
+}
+
+bool mayGoTo(const Vector2& p_F, const Situation& s) {
+  const GoalieParameters& p = s.parameters.goalie;
+  const world::FieldGeometry& field = s.world.field;
+  return !p.stayInArea || (p_F.x() < -0.5 * field.length + field.areaLength - p.areaMargin &&
+                           std::abs(p_F.y()) < 0.5 * field.areaWidth - p.areaMargin);
+}
+
+}  // namespace
+
+Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters) {
+  const Vector2 goal = ownGoal(field);
+  const double distance = (p_FB - goal).norm();
+  const double out = std::min(parameters.outOfGoal, parameters.outShare * distance);
+  Vector2 place = goal + out * (p_FB - goal).normalized();
+  place.x() = std::max(place.x(), goal.x() + parameters.inFrontOfLine);
+  const Vector2 way = p_FB - place;
+  return {place, std::atan2(way.y(), way.x())};
+}
+
+std::optional<ComingShot> comingShot(const Situation& s) {
+  const GoalieParameters& p = s.parameters.goalie;
+  const world::FieldGeometry& field = s.world.field;
+  const world::BallMotion ball{s.world.ball.p_FB, s.world.ball.v_FB};
+  if (ball.v_FB.x() > -p.diveBallSpeed) return std::nullopt;
+  const auto atGoal = world::crossingOfLine(ball, -0.5 * field.length);
+  if (!atGoal || std::abs(atGoal->y) > 0.5 * field.goalWidth + p.postMargin || atGoal->height > p.highest)
+    return std::nullopt;
+  const world::BallMotion seen = inFrame(s.world.self.X_FR.inverse(), ball);
+  if (seen.p_FB.x() < 0.0) return std::nullopt;  // past the robot
+  const auto passing = world::crossingOfLine(seen, 0.0);
+  if (!passing || passing->height > p.highest) return std::nullopt;
+  return ComingShot{passing->time, passing->y, passing->height};
+}
+
+Vector2 clearanceTarget(const Situation& s) {
+  const double aside = s.parameters.goalie.clearanceAside;
+  return {0.0, s.ball().y() >= 0.0 ? aside : -aside};
+}
+
+bool goalieWantsBall(const Situation& s, bool claims) {
+  if (s.phase() == world::Phase::OwnGoalKick) return true;
+  if (s.phase() != world::Phase::PlayOn || comingShot(s)) return false;
+  const GoalieParameters& p = s.parameters.goalie;
+  const Vector2 goal = ownGoal(s.world.field);
+  const double distance = (s.forecast.at(p.claimAhead) - goal).norm();
+  const double reach = p.attackDistance * (claims ? p.keepClaim : 1.0);
+  if (distance > reach || !mayGoTo(s.forecast.at(p.claimAhead), s)) return false;
+  // A field player that is sooner there and stands well keeps it.
+  const Vector2 target = clearanceTarget(s);
+  const PaceParameters& pace = s.parameters.pace;
+  const double own = timeToBall({s.world.self.X_FR, true, false}, s.forecast, target, pace);
+  const double margin = (claims ? -1.0 : p.claimMargin) * s.parameters.keepBallTime;
+  const auto& mates = s.world.teammates;
+  const bool mateSooner = std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
+    const Runner runner{mate.X_FP, mate.headingKnown, mate.fallen};
+    return mate.known && timeToBall(runner, s.forecast, target, pace) < own + margin;
+  });
+  if (mateSooner) return false;
+  // Nor is it left alone in front of an opponent that shoots before it comes.
+  if (distance < p.fightDistance * (claims ? p.keepClaim : 1.0)) return true;
+  const auto& others = s.world.opponents;
+  return std::none_of(others.begin(), others.end(), [&](const world::PlayerState& opponent) {
+    const Runner runner{opponent.X_FP, opponent.headingKnown, opponent.fallen};
+    return opponent.known && timeToBall(runner, s.forecast, goal, pace) < own + (claims ? 0.0 : p.foremost);
+  });
+}
+
+}  // namespace nonet::team
