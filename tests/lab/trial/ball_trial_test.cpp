@@ -60,7 +60,7 @@ TEST(BallTrial, ReceivingHoldsMorePasses) {
 }
 
 TEST(BallTrial, RunsAndStops) {
-  const Run run = runOnce(agentOfType(3), quick(), 1);
+  const lab::Run run = runOnce(agentOfType(3), quick(), 1);
   EXPECT_FALSE(run.fell);
   EXPECT_GT(run.speed, 1.0);
   EXPECT_GT(run.stopTime, 0.1);
