@@ -75,7 +75,9 @@ TEST(Env, RunningIsStandingWithoutAction) {
   for (int i = 0; i < 150 && !fell; ++i) {
     const EnvStep step = env->step(std::vector<float>(env->actions(), 1.0F));
     fell = step.done;
-    if (fell) EXPECT_LT(step.reward, -0.5);
+    if (fell) {
+      EXPECT_LT(step.reward, -0.5);
+    }
   }
   EXPECT_TRUE(fell);
 }
