@@ -139,6 +139,7 @@ TEST_P(Statistics, KicksAreCountedByName) {
   kickTo(s, 0, 6);
   s.robot(0, 5, -0.2, 0.0).kick = "kick_power";
   kickTo(s, 0, 6);
+  s.robot(0, 6, -8.0, -8.0);
   kickTo(s, 1, 6);
   const auto kinds = s.statistics.team(0).kicksByName();
   ASSERT_TRUE(kinds.contains("kick_power"));
