@@ -1,4 +1,6 @@
 // The goalie's skills on the physics: how far they reach, and that the robot rises from them.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "nonet/lab/trial/dive_trial.h"
@@ -16,9 +18,9 @@ TEST_P(Goalkeeping, DivesReachToBothSidesAndTheRobotRises) {
   for (const model::Side side : {model::Side::Left, model::Side::Right}) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const Dive dive = diveAndRise(setup, "dive", side, seed);
+      // After a second, of the places along the ground from 0.15 to 0.55 m aside.
       const Dive::Places& low = dive.barred.back()[0];
-      EXPECT_TRUE(low[8]) << "0.4 m aside";
-      EXPECT_TRUE(low[10]) << "0.5 m aside";
+      EXPECT_GE(std::count(low.begin() + 3, low.begin() + 12, true), 7);
       EXPECT_TRUE(dive.stands);
       EXPECT_LE(dive.attempts, 3);
     }
@@ -29,9 +31,9 @@ TEST_P(Goalkeeping, TheBlockBarsTheGroundBesideTheRobotAtOnce) {
   const TrialSetup setup = agentTrialSetup(GetParam());
   for (const model::Side side : {model::Side::Left, model::Side::Right}) {
     const Dive block = diveAndRise(setup, "block", side, 1);
-    const Dive::Places& low = block.barred[3][0];  // after 0.4 s
-    EXPECT_TRUE(low[4]) << "0.2 m aside";
-    EXPECT_TRUE(low[5]) << "0.25 m aside";
+    // After half a second, of the places along the ground up to 0.25 m aside.
+    const Dive::Places& low = block.barred[4][0];
+    EXPECT_GE(std::count(low.begin(), low.begin() + 6, true), 5);
     EXPECT_TRUE(block.stands);
   }
 }
