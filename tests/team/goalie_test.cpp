@@ -47,7 +47,7 @@ TEST(Goalie, BlocksWhatPassesNear) {
   EXPECT_EQ(skill(0.27, world::kBallRestHeight, 0.0), "block");
   EXPECT_EQ(skill(-0.27, world::kBallRestHeight, 0.0), "block");
   EXPECT_EQ(skill(0.6, world::kBallRestHeight, 0.0), "dive");
-  EXPECT_EQ(skill(0.27, 0.4, 1.0), "dive");
+  EXPECT_EQ(skill(0.27, 0.4, 2.0), "dive");
   EXPECT_EQ(skill(0.0, world::kBallRestHeight, 0.0), "") << "comes to it";
   EXPECT_EQ(skill(0.6, 1.0, 3.0), "") << "flies over the goal";
 }
@@ -64,11 +64,12 @@ TEST(Goalie, ForeseesWhereAShotPasses) {
   for (const double heading : {-0.6, 0.0, 0.6}) {
     for (const double lift : {0.0, 2.0}) {
       Scene scene = goalieScene({-10.0, 1.0}, {-7.0, -1.0});
-      scene.world.ball.v_FB.z() = lift;
       scene.stand(Pose2(-14.4, 0.1, heading));
+      scene.putBall({-10.0, 1.0}, {-7.0, -1.0});
+      scene.world.ball.v_FB.z() = lift;
       const Situation situation = scene.situation(Role::Goalie);
       const std::optional<ComingShot> shot = comingShot(situation);
-      ASSERT_TRUE(shot);
+      ASSERT_TRUE(shot) << heading << " " << lift;
       world::BallMotion ball{scene.world.ball.p_FB, scene.world.ball.v_FB};
       const Pose2 X_RF = scene.world.self.X_FR.inverse();
       double time = 0.0;

@@ -22,7 +22,7 @@ bool matches(Posture posture, FallKind kind) {
     case FallKind::Back:
       return posture == Posture::FallenBack;
     case FallKind::Side:
-      return posture == Posture::FallenLeft || posture == Posture::FallenRight;
+      return world::isFallen(posture);  // a dive may end on the back or the front too
   }
   return false;
 }

@@ -14,6 +14,7 @@ namespace {
 const Vector2 kGoal(-15.0, 0.0);  // the middle of the line
 constexpr double kHalfGoal = 1.05;
 constexpr double kBallRadius = 0.042;
+constexpr double kClear = 0.02;      // m
 constexpr double kHighest = 0.75;    // m, of a shot at the line
 constexpr double kSlowest = 1.5;     // m/s, of a shot at the line
 constexpr double kLongest = 10.0;    // s from the shot to the line
@@ -44,7 +45,9 @@ Shot drawCandidate(ShotKind kind, const Vector2& place, Random& random) {
   const double speed = rolls ? random.uniform(0.0, 10.0) : random.uniform(7.0, 13.0);
   const double rise = rolls ? 0.0 : random.uniform(toRadians(10.0), toRadians(60.0));
   const Vector2 level = speed * std::cos(rise) * way.normalized();
-  return {kind, {place.x(), place.y(), kBallRadius}, {level.x(), level.y(), speed * std::sin(rise)}};
+  // A flying ball begins clear of the ground, which would slow it down by a third in its first cycle.
+  const double height = kind == ShotKind::Flying ? kBallRadius + kClear : kBallRadius;
+  return {kind, {place.x(), place.y(), height}, {level.x(), level.y(), speed * std::sin(rise)}};
 }
 
 // Spares the simulation of most balls that stop on the way: a roll ends after 0.677 s of its first speed
