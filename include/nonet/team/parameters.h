@@ -3,8 +3,8 @@
 
 #include "nonet/config/parameters.h"
 #include "nonet/team/ball_parameters.h"
-#include "nonet/team/challenge_parameters.h"
 #include "nonet/team/carry_parameters.h"
+#include "nonet/team/challenge_parameters.h"
 #include "nonet/team/choice_parameters.h"
 #include "nonet/team/goalie_parameters.h"
 #include "nonet/team/place_parameters.h"

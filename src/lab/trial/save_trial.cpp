@@ -180,7 +180,7 @@ Shot drawShot(ShotKind kind, Random& random) {
   while (true) {
     const Vector2 place = drawPlace(kind, random);
     for (int i = 0; i < kTries; ++i) {
-      const Shot shot = drawCandidate(kind, place, random);
+      Shot shot = drawCandidate(kind, place, random);
       if (!mayArrive(shot)) continue;
       const auto crossing = freeCrossing(shot);
       if (crossing && countsAsShot(*crossing)) return shot;
