@@ -42,7 +42,7 @@ std::string oneAgainstAll(const TableChoice& table, std::vector<const TableEntry
                                  "tied", "lost", "goals", table.games.sequential ? "verdict" : "");
   for (const TableEntry* entry : entries) {
     std::string name = table.sides[entry->b].name;
-    if (!table.against) name = table.sides[entry->a].name + " - " + name;
+    if (!table.against) name = fmt::format("{} - {}", table.sides[entry->a].name, name);
     if (!entry->result) {
       text += fmt::format("{:<{}}  not played yet\n", name, width);
       continue;
@@ -82,6 +82,7 @@ std::string matrix(const TableChoice& table, const std::vector<TableEntry>& entr
 
 std::vector<const TableEntry*> pointersTo(const std::vector<TableEntry>& entries) {
   std::vector<const TableEntry*> pointers;
+  pointers.reserve(entries.size());
   for (const TableEntry& entry : entries) pointers.push_back(&entry);
   return pointers;
 }

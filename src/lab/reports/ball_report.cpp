@@ -242,6 +242,7 @@ std::string slalomSvg(const std::vector<Dribble>& slaloms) {
     if (drawn) continue;
     drawn = true;
     std::vector<Vector2> path;
+    path.reserve(corners.size());
     for (const Vector2& corner : corners) path.push_back(inPath(corner));
     polyline(path, "#555", "stroke-dasharray='4 4'");
   }
