@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/math/direction.h"
 #include "nonet/world/ball_law.h"
 
 namespace nonet::team {
@@ -35,7 +36,7 @@ Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const G
   Vector2 place = goal + out * (p_FB - goal).normalized();
   place.x() = std::max(place.x(), goal.x() + parameters.inFrontOfLine);
   const Vector2 way = p_FB - place;
-  return {place, std::atan2(way.y(), way.x())};
+  return {place, directionOf(way)};
 }
 
 std::optional<ComingShot> comingShot(const Situation& s) {

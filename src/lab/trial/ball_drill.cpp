@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/world/ball_law.h"
 
 namespace nonet::lab {
@@ -26,7 +27,7 @@ Vector2 unit(double direction) {
 
 BallScene onPath(const Pose2& start, const BallPath& path) {
   const Vector2 first = path.corners[1] - path.corners[0];
-  const double heading = std::atan2(first.y(), first.x());
+  const double heading = directionOf(first);
   BallScene scene;
   scene.situation.ball = start.translation;
   scene.start = Pose2(start.translation - kDribbleFrom * unit(heading), heading);

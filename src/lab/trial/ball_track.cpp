@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "nonet/math/direction.h"
+
 namespace nonet::lab {
 
 namespace {
@@ -77,7 +79,7 @@ BallPath slalomPath(const Pose2& start, int turns, double angle, double leg) {
   path.corners.push_back(start * corner);
   for (int i = 0; i <= turns; ++i) {
     const double heading = i % 2 == 0 ? 0.5 * angle : -0.5 * angle;
-    corner += leg * Vector2(std::cos(heading), std::sin(heading));
+    corner += leg * unitVector(heading);
     path.corners.push_back(start * corner);
   }
   return path;

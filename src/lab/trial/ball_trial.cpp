@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 
 #include "lab/trial/ball_drill.h"
@@ -15,14 +16,10 @@ namespace {
 
 constexpr double kFacing = toRadians(10.0);
 
-Vector2 unit(double direction) {
-  return {std::cos(direction), std::sin(direction)};
-}
-
 // In any direction.
 Vector2 anyWay(Random& random, double least, double most) {
   const double length = random.uniform(least, most);
-  return length * unit(random.uniform(-kPi, kPi));
+  return length * unitVector(random.uniform(-kPi, kPi));
 }
 
 // -- approach
@@ -95,9 +92,9 @@ Approach approachOnce(const agent::AgentConfig& agent, const sim::Settings& sett
   GameSituation situation;
   situation.ball = {random.uniform(-8.0, 5.0), random.uniform(-5.0, 5.0)};
   const double from = random.uniform(-kPi, kPi);
-  const Pose2 start(situation.ball - kApproachFrom * unit(from), from);
+  const Pose2 start(situation.ball - kApproachFrom * unitVector(from), from);
   situation.ballVelocity = anyWay(random, 0.0, kApproachRolling);
-  const Vector2 target = situation.ball + kKickOver * unit(random.uniform(-0.5, 0.5));
+  const Vector2 target = situation.ball + kKickOver * unitVector(random.uniform(-0.5, 0.5));
   const Mind mind = drilled(agent.parameters.team, target, team::KickUse::Clear);
   auto watch = std::make_shared<KickWatch>();
   situation.players = {fieldPlayer(
@@ -109,7 +106,7 @@ Approach approachOnce(const agent::AgentConfig& agent, const sim::Settings& sett
   const auto inPlace = [&] {
     const BallSample& now = trial.track().back();
     const Vector2 way = target - now.ball;
-    const double wanted = std::atan2(way.y(), way.x()) - watch->direction;
+    const double wanted = directionOf(way) - watch->direction;
     return watch->ready && std::abs(wrapAngle(wanted - now.X_WR.rotation)) < kFacing;
   };
   trial.run(kApproachLongest, [&] { return !inPlace(); });
@@ -159,7 +156,7 @@ Duel duelOnce(const agent::AgentConfig& agent, const agent::AgentConfig& opponen
   GameSituation situation;
   situation.ball = {random.uniform(-6.0, 6.0), random.uniform(-5.0, 5.0)};
   const double heading = random.uniform(-0.7, 0.7);  // the opponent stands towards its own goal
-  const Vector2 way = unit(heading);
+  const Vector2 way = unitVector(heading);
   situation.players = {
       fieldPlayer(agent, Pose2(situation.ball - kDuelApart * way, heading), {}),
       fieldPlayer(opponent, Pose2(situation.ball + kDuelApart * way, wrapAngle(heading + kPi)), {}, true)};
@@ -200,7 +197,7 @@ Run runOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std:
       agent, start, [goal, stop](const world::WorldState& world, const motion::MotionState& /*motion*/) {
         if (*stop) return team::Action();
         const Vector2 way = world.self.X_FR.inverse() * goal;
-        return team::Action(motion::WalkTo{Pose2(way, std::atan2(way.y(), way.x())), false}, "run");
+        return team::Action(motion::WalkTo{Pose2(way, directionOf(way)), false}, "run");
       })};
   RecordedTrial trial(settings, situation, random.next());
   Run run;

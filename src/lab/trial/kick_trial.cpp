@@ -15,7 +15,6 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kMiss = 0.3;      // m
-constexpr double kHit = 0.7;       // m/s that a kick adds at least to the ball's speed in a cycle
 constexpr double kLasts = 2.0;     // s after contact that the robot must stand
 constexpr double kRollsOut = 8.0;  // s, for a ball that flies and bounces
 constexpr int kBearings = 10;

@@ -13,6 +13,8 @@
 
 namespace nonet::lab {
 
+constexpr double kHit = 0.7;  // m/s that a kick adds at least to the ball's speed in a cycle
+
 /// Plays the ball to a place with the kick of that name; empty: motion chooses.
 class Kicker {
  public:

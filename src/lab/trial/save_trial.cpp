@@ -5,6 +5,7 @@
 
 #include "nonet/lab/trial/game_trial.h"
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/team/goalie.h"
 
 namespace nonet::lab {
@@ -30,7 +31,7 @@ constexpr double kBehindBall = 0.3;  // m, of the opponent
 constexpr double kMisplaced = 0.15;  // m
 
 Vector2 onCircle(double radius, double angle) {
-  return radius * Vector2(std::cos(angle), std::sin(angle));
+  return radius * unitVector(angle);
 }
 
 Vector2 drawPlace(ShotKind kind, Random& random) {
@@ -64,7 +65,7 @@ GamePlayer opponentBehind(const agent::AgentConfig& goalie, const Shot& shot) {
   player.agent.unum = 2;
   player.rightTeam = true;
   const Vector2 way = shot.v_WB.head<2>().normalized();
-  player.X_WR = Pose2(shot.p_WB.head<2>() - kBehindBall * way, std::atan2(way.y(), way.x()));
+  player.X_WR = Pose2(shot.p_WB.head<2>() - kBehindBall * way, directionOf(way));
   player.mind = [](const world::WorldState&, const motion::MotionState&) { return team::Action(); };
   return player;
 }

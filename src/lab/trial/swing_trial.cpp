@@ -22,7 +22,6 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kHit = 0.7;     // m/s that a kick adds at least to the ball's speed in a cycle
 constexpr double kStands = 0.8;  // s after the kick's end that the robot must stand
 
 const motion::KickOption* optionOf(const motion::KickCatalogue& catalogue, std::string_view kick,
@@ -139,17 +138,10 @@ struct SwingTrial::Implementation {
       if (result.contact) swing.lean = std::max(swing.lean, trueTilt(world, robot));
       result.fell = isDown(world, robot);
     }
-    const Vector2 way = aim.inverse() * restPlace();
+    const Vector2 way = aim.inverse() * world::restPlace(ball());
     result.forward = way.x();
     result.aside = way.y();
     return swing;
-  }
-
-  // A flying ball must be followed to the ground; the rest of a roll is certain.
-  Vector2 restPlace() {
-    world::BallMotion rest = ball();
-    while (world::isFlying(rest)) world::stepBall(rest, kCycleTime);
-    return world::restPlace(rest);
   }
 
   std::string kick;
