@@ -62,7 +62,7 @@ team::Role Agent::role() const {
 }
 std::string_view Agent::kick() const {
   const motion::MotionState& motion = stages_->robot.motion().state();
-  return motion.busy ? motion.kick : std::string_view();
+  return motion.busy ? motion.kick.name : std::string_view();
 }
 const team::Action& Agent::action() const {
   return stages_->behavior.action();

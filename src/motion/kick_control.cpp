@@ -86,7 +86,11 @@ bool KickControl::within(double share, const Way& way) const {
   const KickHead& head = chosen_->head;
   return std::abs(way.missing.x()) < share * head.tolerance.x() &&
          std::abs(way.missing.y()) < share * head.tolerance.y() &&
-         std::abs(way.turn) < share * parameters_.angle;
+         std::abs(way.turn) < share * std::max(parameters_.angle, head.turn);
+}
+
+KickAim KickControl::aimOf(const KickTo& then, const WalkEngine& walk) const {
+  return {then.ball, wayTo(*chosen_, then).turn, walk.odometryStep().translation / kCycleTime};
 }
 
 KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, double quiet) {
@@ -107,7 +111,7 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
   const bool quietly = walk.standing() && quiet >= p.quietTime;
   step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
   comesToStand_ = step.inPlace;
-  step.ball = then.ball;
+  step.aim = aimOf(then, walk);
   step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
   step.stand = step.inPlace && !head.fromWalk;
   return step;

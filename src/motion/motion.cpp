@@ -103,7 +103,7 @@ bool Motion::Stages::updateSkill(const world::WorldState& world, const MotionReq
     mode = Mode::Skill;
   }
   state.busy = true;
-  state.kick = kickName;
+  state.kick.name = kickName;
   if (player.update(world, targets) == SkillPlayer::Result::Running) return true;
   state.skillFinished = true;
   skillDone = true;
@@ -123,13 +123,10 @@ bool Motion::Stages::startSkill(const PlaySkill& request) {
 bool Motion::Stages::startKick(const KickTo& request) {
   const KickStep step = kicks.update(request, walk.engine(), quiet);
   if (step.option == nullptr) return false;
-  state.kick = step.option->name;
-  state.kickFoot = step.option->foot;
-  state.kickInPlace = step.inPlace;
-  state.kickBall = step.ball;
-  if (step.begin &&
-      player.start(step.option->name, step.option->foot == model::Side::Right, targets.angles, step.ball)) {
-    kickName = step.option->name;
+  const KickOption& option = *step.option;
+  state.kick = {option.name, option.foot, step.inPlace, step.aim};
+  if (step.begin && player.start(option.name, option.foot == model::Side::Right, targets.angles, step.aim)) {
+    kickName = option.name;
     kicks.reset();
     return true;
   }

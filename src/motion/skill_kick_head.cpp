@@ -36,6 +36,7 @@ KickHead readKickHead(SkillReader& reader) {
       if (reader.accept("within")) head.tolerance = reader.pair(Unit::Metre);
     } else if (reader.accept("direction")) {
       head.direction = reader.value(Unit::Radian);
+      if (reader.accept("within")) head.turn = reader.value(Unit::Radian);
     } else if (reader.accept("distance")) {
       head.shortest = reader.positive(Unit::Metre);
       reader.expect("..");

@@ -38,8 +38,8 @@ constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm
                                                  {"ankleRoll", JointId::LLeg6},
                                                  {"toe", JointId::LLeg7}}};
 
-BallValue negated(const BallValue& value) {
-  return {-value.constant, -value.perAhead, -value.perAside};
+KickValue negated(const KickValue& value) {
+  return {-value.constant, -value.per};
 }
 
 class Parser : private SkillReader {
@@ -85,9 +85,9 @@ class Parser : private SkillReader {
     };
     while (accept("parameter")) part([this] { parseParameter(); }, begins);
     if (accept("kick")) part([this] { skill_.kick = readKickHead(*this); }, begins);
-    allowBall(skill_.kick.has_value());
+    allowInputs(skill_.kick.has_value());
     block();
-    allowBall(false);
+    allowInputs(false);
     emit(Instruction::Kind::End);
     return std::move(skill_);
   }
@@ -181,9 +181,9 @@ class Parser : private SkillReader {
     }
   }
 
-  BallValue duration() {
+  KickValue duration() {
     const SkillToken& first = peek();
-    const BallValue result = ballValue(Unit::Second);
+    const KickValue result = kickValue(Unit::Second);
     if (!(result.constant > 0.0)) failAt(first, "must be more than zero");
     return result;
   }
@@ -197,7 +197,7 @@ class Parser : private SkillReader {
       const std::size_t before = instruction.joints.size();
       joints(instruction, true);
       if (!accept("after")) continue;
-      const BallValue after = ballValue(Unit::Second);
+      const KickValue after = kickValue(Unit::Second);
       for (std::size_t i = before; i < instruction.joints.size(); ++i) instruction.joints[i].after = after;
     }
   }
@@ -261,7 +261,7 @@ class Parser : private SkillReader {
     if (group == "head") {
       if (name != "pan" && name != "tilt") failAt(nameToken, "the head has the joints pan and tilt");
       const SkillToken angleToken = peek();
-      const BallValue angle = withAngle ? ballValue(Unit::Radian) : BallValue{};
+      const KickValue angle = withAngle ? kickValue(Unit::Radian) : KickValue{};
       if (withAngle)
         checkLimits(angleToken, name == "pan" ? JointId::Head1 : JointId::Head2,
                     name == "pan" ? angle.constant : -angle.constant);
@@ -274,7 +274,7 @@ class Parser : private SkillReader {
                                     [&](const JointWord& joint) { return joint.name == name; });
     if (found == kLimbJoints.end()) failAt(nameToken, fmt::format("unknown joint '{}'", name));
     const SkillToken angleToken = peek();
-    const BallValue angle = withAngle ? ballValue(Unit::Radian) : BallValue{};
+    const KickValue angle = withAngle ? kickValue(Unit::Radian) : KickValue{};
     if (withAngle) checkLimits(angleToken, found->left, angle.constant);
     const JointId right = model::mirrored(found->left);
     if (group != "right") instruction.joints.push_back({found->left, angle, {}});

@@ -12,9 +12,20 @@ namespace {
 
 // A skill that jumps in a circle without taking time must not hang the robot.
 constexpr int kMostInstructionsPerCycle = 1000;
-constexpr double kBallRadius = 0.042;     // m, server facts 3.3
-constexpr double kFarthestOffset = 0.08;  // m from a kick's place of the ball: what values are made for
-constexpr double kShortestMove = 0.005;   // s
+constexpr double kBallRadius = 0.042;    // m, server facts 3.3
+constexpr double kShortestMove = 0.005;  // s
+
+// What a kick's values are made for: beyond these they do not grow. m, m, rad, m/s, m/s.
+const KickInputs kMostInputs = (KickInputs() << 0.08, 0.08, 0.5, 1.0, 1.0).finished();
+
+// As the kick with the left foot has them.
+KickInputs inputsOf(const KickAim& aim, const KickHead& head, bool mirrored) {
+  const double left = mirrored ? -1.0 : 1.0;
+  KickInputs inputs;
+  inputs << aim.ball.x() - head.p_RBall.x(), left * aim.ball.y() - head.p_RBall.y(), left * aim.turn,
+      aim.pace.x(), left * aim.pace.y();
+  return inputs.cwiseMax(-kMostInputs).cwiseMin(kMostInputs);
+}
 
 Matrix3 rotationOf(const Vector3& rollPitchYaw) {
   return (Eigen::AngleAxisd(rollPitchYaw.z(), Vector3::UnitZ()) *
@@ -38,10 +49,7 @@ FootGoal mirroredGoal(FootGoal goal) {
 
 JointGoal mirroredGoal(const JointGoal& goal) {
   const double sign = mirrorsSign(goal.joint) ? -1.0 : 1.0;
-  const BallValue& angle = goal.angle;
-  return {model::mirrored(goal.joint),
-          {sign * angle.constant, sign * angle.perAhead, sign * angle.perAside},
-          goal.after};
+  return {model::mirrored(goal.joint), {sign * goal.angle.constant, sign * goal.angle.per}, goal.after};
 }
 
 // The ball in the torso frame. The ball state is level, so the torso's tilt comes in.
@@ -60,7 +68,7 @@ SkillPlayer::SkillPlayer(const model::RobotModel& model, const SkillLibrary& lib
     : model_(&model), library_(&library), stand_(stand) {}
 
 bool SkillPlayer::start(std::string_view name, bool mirrored, const model::JointArray& commanded,
-                        const std::optional<Vector2>& p_RBall) {
+                        const std::optional<KickAim>& aim) {
   const int skill = library_->find(name);
   if (skill < 0) return false;
   frames_[0] = Frame{skill, 0, mirrored, {}};
@@ -68,13 +76,9 @@ bool SkillPlayer::start(std::string_view name, bool mirrored, const model::Joint
   time_ = 0.0;
   begun_ = false;
   from_ = commanded;
-  ball_ = p_RBall;
-  ballOffset_ = Vector2::Zero();
+  ball_ = aim ? std::optional(aim->ball) : std::nullopt;
   const std::optional<KickHead>& kick = library_->skill(skill).kick;
-  if (kick && p_RBall) {
-    const Vector2 seen(p_RBall->x(), mirrored ? -p_RBall->y() : p_RBall->y());
-    ballOffset_ = (seen - kick->p_RBall).cwiseMax(-kFarthestOffset).cwiseMin(kFarthestOffset);
-  }
+  inputs_ = kick && aim ? inputsOf(*aim, *kick, mirrored) : KickInputs(KickInputs::Zero());
   return true;
 }
 
@@ -185,7 +189,7 @@ void SkillPlayer::begin(const Skill& skill, const Instruction& instruction, bool
   inInstruction_ = 0.0;
   duration_ = instruction.value;
   if (instruction.kind == Instruction::Kind::MoveOver || instruction.kind == Instruction::Kind::Swing) {
-    duration_ = std::max(kShortestMove, instruction.duration.at(ballOffset_));
+    duration_ = std::max(kShortestMove, instruction.duration.at(inputs_));
   }
   from_ = targets.angles;
   // A joint that was let go begins where it is.
@@ -241,8 +245,8 @@ void SkillPlayer::chooseGoals(const Instruction& instruction, bool mirrored) {
     const JointGoal goal = mirrored ? mirroredGoal(raw) : raw;
     if (!model_->has(goal.joint)) continue;
     const std::size_t i = model::index(goal.joint);
-    to_[i] = goal.angle.at(ballOffset_);
-    after_[i] = goal.after.at(ballOffset_);
+    to_[i] = goal.angle.at(inputs_);
+    after_[i] = goal.after.at(inputs_);
     moves_ |= 1U << i;
   }
 }

@@ -1,5 +1,7 @@
 #include "skill_reader.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "nonet/motion/skill_language.h"
@@ -8,6 +10,13 @@ namespace nonet::motion {
 
 using config::Unit;
 using Kind = SkillToken::Kind;
+
+namespace {
+
+constexpr std::array<std::string_view, kKickInputs> kInputWords{"ballAhead", "ballAside", "turn", "paceAhead",
+                                                                "paceAside"};
+
+}  // namespace
 
 SkillReader::SkillReader(std::string_view text, const std::string& file, std::vector<std::string>* errors)
     : file_(file), errors_(errors) {
@@ -95,8 +104,8 @@ SkillValue SkillReader::primary() {
     return {token.value, token.unit};
   }
   if (token.kind == Kind::Word) {
-    if (accept("ballAhead")) return {0.0, Unit::None, 1.0, 0.0};
-    if (accept("ballAside")) return {0.0, Unit::None, 0.0, 1.0};
+    for (int i = 0; i < kKickInputs; ++i)
+      if (accept(kInputWords[static_cast<std::size_t>(i)])) return {0.0, Unit::None, KickInputs::Unit(i)};
     const auto found = named_.find(token.text);
     if (found == named_.end()) fail(fmt::format("unknown parameter '{}'", token.text));
     take();
@@ -116,13 +125,13 @@ SkillValue SkillReader::product() {
     if (accept("*")) {
       const SkillValue right = signedValue();
       if (left.unit != Unit::None && right.unit != Unit::None) fail("one factor must be a plain number");
-      if (left.dependsOnBall() && right.dependsOnBall()) fail("only one factor may depend on the ball");
+      if (left.varies() && right.varies()) fail("only one factor may depend on the ball");
       const Unit unit = left.unit == Unit::None ? right.unit : left.unit;
-      left = left.dependsOnBall() ? left.times(right.number) : right.times(left.number);
+      left = left.varies() ? left.times(right.number) : right.times(left.number);
       left.unit = unit;
     } else if (accept("/")) {
       const SkillValue right = signedValue();
-      if (right.dependsOnBall()) fail("a divisor must not depend on the ball");
+      if (right.varies()) fail("a divisor must not depend on the ball");
       if (right.isZero()) fail("division by zero");
       if (right.unit != Unit::None && right.unit != left.unit)
         fail("divide by a plain number or the same unit");
@@ -143,28 +152,28 @@ SkillValue SkillReader::anyValue() {
     const SkillValue right = product().times(minus ? -1.0 : 1.0);
     if (left.unit != right.unit && !left.isZero() && !right.isZero()) fail("the units of a sum differ");
     left = {left.number + right.number, left.isZero() && left.unit == Unit::None ? right.unit : left.unit,
-            left.perAhead + right.perAhead, left.perAside + right.perAside};
+            left.per + right.per};
   }
   return left;
 }
 
-BallValue SkillReader::ballValue(Unit unit) {
+KickValue SkillReader::kickValue(Unit unit) {
   const SkillToken& first = peek();
   const SkillValue result = anyValue();
   if (result.unit != unit && !result.isZero()) {
     failAt(first, unit == Unit::None ? std::string("a plain number is needed here")
                                      : fmt::format("a value in {} is needed here", config::unitName(unit)));
   }
-  if (result.dependsOnBall() && !ballAllowed_) {
+  if (result.varies() && !inputsAllowed_) {
     failAt(first, "only a skill with a 'kick' head knows where the ball should lie");
   }
-  return {result.number, result.perAhead, result.perAside};
+  return {result.number, result.per};
 }
 
 double SkillReader::value(Unit unit) {
   const SkillToken& first = peek();
-  const BallValue result = ballValue(unit);
-  if (result.perAhead != 0.0 || result.perAside != 0.0) failAt(first, "must not depend on the ball here");
+  const KickValue result = kickValue(unit);
+  if (!result.per.isZero(0.0)) failAt(first, "must not depend on the ball here");
   return result.constant;
 }
 

@@ -16,18 +16,15 @@
 
 namespace nonet::motion {
 
-/// A number in SI units, or a sum of one and of multiples of the ball's place (ballAhead, ballAside). A zero
-/// fits every unit.
+/// A number in SI units, or a sum of one and of multiples of what a kick suits itself to (ballAhead, ...). A
+/// zero fits every unit.
 struct SkillValue {
   double number = 0.0;
   config::Unit unit = config::Unit::None;
-  double perAhead = 0.0;
-  double perAside = 0.0;
-  bool dependsOnBall() const { return perAhead != 0.0 || perAside != 0.0; }
-  bool isZero() const { return number == 0.0 && !dependsOnBall(); }
-  SkillValue times(double factor) const {
-    return {number * factor, unit, perAhead * factor, perAside * factor};
-  }
+  KickInputs per = KickInputs::Zero();
+  bool varies() const { return !per.isZero(0.0); }
+  bool isZero() const { return number == 0.0 && !varies(); }
+  SkillValue times(double factor) const { return {number * factor, unit, per * factor}; }
 };
 
 /// All members throw SkillError where the text is not what they read.
@@ -65,9 +62,9 @@ class SkillReader {
   SkillValue anyValue();
   double value(config::Unit unit);
   double positive(config::Unit unit);
-  /// May depend on the ball, in skills whose head says where the ball should lie.
-  BallValue ballValue(config::Unit unit);
-  void allowBall(bool allowed) { ballAllowed_ = allowed; }
+  /// May suit itself to the ball, in skills whose head says where the ball should lie.
+  KickValue kickValue(config::Unit unit);
+  void allowInputs(bool allowed) { inputsAllowed_ = allowed; }
   /// "(x, y, z)"
   Vector3 vector(config::Unit unit);
   /// "(x, y)"
@@ -90,7 +87,7 @@ class SkillReader {
   std::vector<SkillToken> tokens_;
   std::size_t at_ = 0;
   int depth_ = 0;
-  bool ballAllowed_ = false;
+  bool inputsAllowed_ = false;
   std::map<std::string, SkillValue, std::less<>> named_;
 };
 

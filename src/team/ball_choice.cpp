@@ -119,10 +119,11 @@ double endValue(const Situation& s, const Vector2& p_F) {
   return -worthOf(-inside, field, p) - p.out * worthOf(inside, field, p);
 }
 
-double longestKick(const Situation& s) {
-  double longest = 0.0;
-  for (const motion::KickOption& option : s.motion.kicks) longest = std::max(longest, option.head.longest);
-  return longest;
+// s from now until the foot meets the ball in this kick, from behind it.
+double timeToContact(const Situation& s, const motion::KickHead& kick, const Vector2& p_FTarget) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const double there = timeToBall({s.world.self.X_FR, true, false}, s.forecast, p_FTarget, s.parameters.pace);
+  return there + kick.contact + (kick.fromWalk ? p.setupWalk : p.setupStand);
 }
 
 double dribbleValue(const Situation& s) {
@@ -164,27 +165,27 @@ double kickValue(const Situation& s, double direction, double length) {
 
 BallChoice chooseAction(const Situation& s, Candidates* record) {
   const ChoiceParameters& p = s.parameters.choice;
-  BallChoice best{false, s.p_FTarget, dribbleValue(s)};
+  BallChoice best{false, s.p_FTarget, dribbleValue(s), {}};
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.p_FTarget, best.value);
-  const double length = p.length * longestKick(s);
-  if (length <= 0.0) return best;
-  const auto unum = static_cast<std::size_t>(s.world.game.unum);
-  const double needed = s.timeToBall[unum] + p.setup;
   const double left = opponentsTime(s, s.ball());
-  const double comesOff = first(needed, left, p.setupSpread);
   const double contested = valueAt(s, s.ball(), 0.5);
   const std::optional<double> present = presentKick(s);
   const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
   const double straight = directionOf(toGoal);
-  for (int i = -kDirections; i <= kDirections; ++i) {
-    const double direction = straight + kStep * i;
-    double value = comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
-    if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
-    const Vector2 target = s.ball() + length * unitVector(direction);
-    if (record != nullptr) record->add(target, value);
-    if (value <= best.value) continue;
-    best = {true, target, value};
+  for (const motion::KickOption& kick : s.motion.kicks) {
+    if (kick.foot != model::Side::Left || kick.head.room > s.nearestOpponent) continue;
+    const double length = p.length * kick.head.longest;
+    for (int i = -kDirections; i <= kDirections; ++i) {
+      const double direction = straight + kStep * i;
+      const Vector2 target = s.ball() + length * unitVector(direction);
+      const double comesOff = first(timeToContact(s, kick.head, target), left, p.setupSpread);
+      double value = comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
+      if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
+      if (record != nullptr) record->add(target, value);
+      if (value <= best.value) continue;
+      best = {true, target, value, kick.name};
+    }
   }
   return best;
 }

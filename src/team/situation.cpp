@@ -131,6 +131,7 @@ std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {
   }
   const BallChoice choice = chooseAction(s, record);
   BallPlay play = playTowards(s, choice.p_FTarget, choice.kick ? KickUse::Clear : KickUse::Never);
+  play.kick = choice.with;
   if (record != nullptr) play.candidates = record->all();
   return play;
 }

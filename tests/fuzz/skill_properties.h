@@ -13,8 +13,9 @@ namespace nonet::fuzz {
 
 inline std::string describe(const std::vector<motion::Skill>& skills) {
   std::string text;
-  const auto add = [&text](const motion::BallValue& value) {
-    text += fmt::format("{} {} {};", value.constant, value.perAhead, value.perAside);
+  const auto add = [&text](const motion::KickValue& value) {
+    text += fmt::format("{} ", value.constant);
+    for (const double per : value.per) text += fmt::format("{} ", per);
   };
   for (const motion::Skill& skill : skills) {
     text += fmt::format("skill {} {} {}\n", skill.name, skill.loopSlots, skill.conditions.size());
@@ -51,7 +52,8 @@ inline std::string checkPlaying(const std::vector<motion::Skill>& skills) {
   motion::JointTargets targets;
   targets.stiffness.fill(1.0);
   for (const bool mirrored : {false, true}) {
-    if (!player.start(library.skill(0).name, mirrored, targets.angles, Vector2(0.2, 0.05)))
+    if (!player.start(library.skill(0).name, mirrored, targets.angles,
+                      motion::KickAim{Vector2(0.2, 0.05), 0.1, Vector2(0.3, -0.1)}))
       return "does not start";
     for (int cycle = 0; cycle < 50; ++cycle) {
       const auto result = player.update(world, targets);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 #include "nonet/motion/skill_language.h"
 
@@ -18,7 +19,8 @@ using model::Side;
 
 constexpr const char* kSkills =
     "skill kick_a { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..7m contact 0.3s from stand } }\n"
-    "skill kick_b { kick { ball (0.1m, 6cm) within (3cm, 2cm) direction 90deg distance 1m..3m contact 0.4s "
+    "skill kick_b { kick { ball (0.1m, 6cm) within (3cm, 2cm) direction 90deg within 20deg distance 1m..3m "
+    "contact 0.4s "
     "room 1m from stand types 0 4 } }\n"
     "skill no_kick { wait 1s }";
 
@@ -84,9 +86,25 @@ TEST_F(Control, BeginsWhenTheBallLiesRightAndTheRobotIsQuiet) {
   EXPECT_FALSE(step(there, 0.0).begin);
   const KickStep now = step(there, 1.0);
   EXPECT_TRUE(now.begin);
-  EXPECT_TRUE(now.ball.isApprox(there.ball));
+  EXPECT_TRUE(now.aim.ball.isApprox(there.ball));
   EXPECT_FALSE(step(request({0.26, 0.05}, {5.0, 0.0}), 1.0).begin);
   EXPECT_FALSE(step(request({0.2, 0.05}, {5.0, 2.0}), 1.0).begin);
+}
+
+// kick_b sends the ball 90 degrees to the left, or up to 20 more or less.
+TEST_F(Control, SendsTheBallAsideWithinWhatTheHeadDeclares) {
+  const auto aimed = [&](double degrees) {
+    control_.reset();
+    KickTo kick = request({0.1, 0.06}, 2.5 * unitVector(toRadians(degrees)));
+    kick.kick = std::string_view("kick_b");
+    return step(kick, 1.0);
+  };
+  EXPECT_TRUE(aimed(90.0).begin);
+  EXPECT_NEAR(aimed(107.0).aim.turn, toRadians(17.0), 1e-12);
+  EXPECT_TRUE(aimed(107.0).begin);
+  EXPECT_NEAR(aimed(73.0).aim.turn, -toRadians(17.0), 1e-12);
+  EXPECT_TRUE(aimed(73.0).begin);
+  EXPECT_FALSE(aimed(113.0).begin);
 }
 
 // Where a rolling ball will be when the foot meets it decides, not where it is.
@@ -95,7 +113,7 @@ TEST_F(Control, ReckonsWithTheBallsRoll) {
   kick.ballVelocity = Vector2(-0.1 / (0.3 + 2 * kCycleTime), 0.0);
   const KickStep now = step(kick, 1.0);
   EXPECT_TRUE(now.begin);
-  EXPECT_NEAR(now.ball.x(), 0.2, 1e-9);
+  EXPECT_NEAR(now.aim.ball.x(), 0.2, 1e-9);
 }
 
 // A point robot that walks as it is told, with a drift such as small steps have.

@@ -89,12 +89,23 @@ TEST(SkillLanguage, ValuesMayDependOnTheBall) {
       "swing over 0.1s + 0.3s * ballAhead { right.hipRoll -(2deg - 10deg * ballAside) * 3 / 2 + 5deg "
       "after 0.02s - ballAhead * 0.1s }");
   const Instruction& swing = skill.program[0];
-  const Vector2 offset(0.03, -0.02);
+  KickInputs offset = KickInputs::Zero();
+  offset.head<2>() = Vector2(0.03, -0.02);
   EXPECT_EQ(swing.kind, Instruction::Kind::Swing);
   EXPECT_NEAR(swing.duration.at(offset), 0.1 + 0.3 * 0.03, 1e-12);
   // The right hip rolls the other way.
   EXPECT_NEAR(swing.joints[0].angle.at(offset), -toRadians(-(2.0 + 10.0 * 0.02) * 1.5 + 5.0), 1e-12);
   EXPECT_NEAR(swing.joints[0].after.at(offset), 0.02 - 0.1 * 0.03, 1e-12);
+}
+
+TEST(SkillLanguage, ValuesMayDependOnAimAndPace) {
+  const Skill skill = parseOne(
+      "kick { ball (0.2m, 0) direction 10deg within 0.3rad distance 1m..2m contact 0.3s }\n"
+      "swing over 0.1s + 0.3s * paceAhead { left.hipRoll 2rad * turn - 1rad * paceAside / 4 }");
+  EXPECT_DOUBLE_EQ(skill.kick->turn, 0.3);
+  const KickInputs inputs = (KickInputs() << 9.0, 9.0, 0.1, 0.5, 0.2).finished();
+  EXPECT_NEAR(skill.program[0].duration.at(inputs), 0.1 + 0.3 * 0.5, 1e-12);
+  EXPECT_NEAR(skill.program[0].joints[0].angle.at(inputs), 2.0 * 0.1 - 0.2 / 4.0, 1e-12);
 }
 
 TEST(SkillLanguage, ParametersAreReplaced) {

@@ -63,20 +63,24 @@ TEST_F(Player, SwingsAtTheJointsOwnSpeed) {
   EXPECT_EQ(step(), Result::Finished);
 }
 
-TEST_F(Player, KicksKnowHowFarTheBallLiesFromItsPlace) {
+TEST_F(Player, KicksSuitThemselvesToBallAimAndPace) {
   const std::string text =
       "skill a { kick { ball (0.2m, 5cm) distance 1m..2m contact 0.1s }"
-      "move over 0.2s { left.knee -0.5rad - 1rad * ballAhead left.hipRoll 1rad * ballAside } }";
+      "move over 0.2s { left.knee -0.5rad - 1rad * ballAhead left.hipRoll 1rad * ballAside "
+      "left.hipPitch 1rad * paceAhead right.hipRoll 1rad * turn + 1rad * paceAside } }";
   library_ = SkillLibrary(parseSkills(text, "test.skl"));
   world_.body.cycleTime = kCycleTime;
   for (const bool mirrored : {false, true}) {
     player_ = std::make_unique<SkillPlayer>(model_, library_);
     targets_.stiffness.fill(1.0);
-    const Vector2 ball(0.23, mirrored ? -0.06 : 0.06);
-    ASSERT_TRUE(player_->start("a", mirrored, targets_.angles, ball));
+    const double left = mirrored ? -1.0 : 1.0;
+    const KickAim aim{Vector2(0.23, left * 0.06), left * 0.2, Vector2(0.4, left * 0.1)};
+    ASSERT_TRUE(player_->start("a", mirrored, targets_.angles, aim));
     cyclesToEnd();
     EXPECT_NEAR(angle(mirrored ? JointId::RLeg4 : JointId::LLeg4), -0.53, 1e-12);
-    EXPECT_NEAR(angle(mirrored ? JointId::RLeg2 : JointId::LLeg2), mirrored ? -0.01 : 0.01, 1e-12);
+    EXPECT_NEAR(angle(mirrored ? JointId::RLeg2 : JointId::LLeg2), left * 0.01, 1e-12);
+    EXPECT_NEAR(angle(mirrored ? JointId::RLeg3 : JointId::LLeg3), 0.4, 1e-12);
+    EXPECT_NEAR(angle(mirrored ? JointId::LLeg2 : JointId::RLeg2), -left * 0.3, 1e-12);
   }
 }
 
@@ -189,7 +193,7 @@ TEST_F(Player, CurvesPassThroughTheirPointsRelativeToTheBall) {
   load(
       "skill a { curve left foot over 0.2s from ball { point (-0.16m, 0, -5mm) point (-0.1m, 10mm, 20mm) } "
       "}");
-  ASSERT_TRUE(player_->start("a", false, targets_.angles, Vector2(0.15, 0.055)));
+  ASSERT_TRUE(player_->start("a", false, targets_.angles, KickAim{Vector2(0.15, 0.055), 0.0, Vector2::Zero()}));
   model::BodyPoses bodies;
   for (int i = 0; i < 5; ++i) step();
   model::forwardKinematics(model_, targets_.angles, bodies);

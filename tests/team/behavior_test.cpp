@@ -60,7 +60,7 @@ TEST_F(Stage, HoldsAKickThatItAskedFor) {
   ASSERT_EQ(behavior.role(), Role::OnBall);
   EXPECT_FALSE(std::holds_alternative<motion::KickTo>(cycle().motion));
   scene.motion.request = motion::KickTo{};
-  scene.motion.kickInPlace = true;
+  scene.motion.kick.inPlace = true;
   EXPECT_TRUE(std::holds_alternative<motion::KickTo>(cycle().motion));
 }
 

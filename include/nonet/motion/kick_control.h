@@ -20,7 +20,7 @@ struct KickStep {
   bool begin = false;                  // now; otherwise walk on:
   bool stand = false;                  // come to a stand
   WalkVelocity walk;                   // or these steps
-  Vector2 ball = Vector2::Zero();      // where the kick is to find the ball, robot frame, m
+  KickAim aim;                         // what the kick is told when it begins
 };
 
 class KickControl {
@@ -45,6 +45,7 @@ class KickControl {
   const KickOption* choose(const KickTo& request) const;
   KickTo after(double seconds, const KickTo& request, const WalkEngine& walk) const;
   WalkVelocity lastSteps(const Way& way) const;
+  KickAim aimOf(const KickTo& then, const WalkEngine& walk) const;
   bool within(double share, const Way& way) const;
 
   const KickCatalogue* catalogue_;

@@ -11,16 +11,21 @@
 
 namespace nonet::motion {
 
+/// The kick that is chosen or runs.
+struct KickState {
+  std::string_view name;  // empty: none
+  model::Side foot = model::Side::Left;
+  bool inPlace = false;  // the ball lies where it wants it
+  KickAim aim;           // what it would be told if it began now
+};
+
 struct MotionState {
   MotionRequest request;       // what was asked for in the last cycle
   bool rising = false;         // getting up
   bool busy = false;           // a skill or kick runs that must not be interrupted
   bool skillFinished = false;  // the requested skill ended in this cycle
   std::optional<Pose2> beam;   // asked for in the last cycle, own field frame
-  std::string_view kick;       // name of the kick that is chosen or runs; empty: none
-  model::Side kickFoot = model::Side::Left;
-  bool kickInPlace = false;            // the ball lies where that kick wants it
-  Vector2 kickBall = Vector2::Zero();  // where it is to find the ball, robot frame, m
+  KickState kick;
 
   std::span<const KickOption> kicks;  // all that this robot can do
 

@@ -27,21 +27,36 @@ struct SkillParameter {
 /// Joints whose angle changes sign between left and right.
 bool mirrorsSign(model::JointId joint);
 
-/// A number of a skill that may depend on where the ball lies: `constant` + `perAhead` * a + `perAside` * b,
-/// with a and b how far ahead of its place (KickHead::p_RBall) and how far to the left of it the ball is
-/// believed to lie when the skill begins, m.
-struct BallValue {
-  double constant = 0.0;
-  double perAhead = 0.0;
-  double perAside = 0.0;
+/// What a kick is told when it begins.
+struct KickAim {
+  Vector2 ball = Vector2::Zero();  // where it will find the ball, robot frame on the ground, m
+  double turn = 0.0;               // how far to the left of its own direction the ball should go, rad
+  Vector2 pace = Vector2::Zero();  // of the steps out of which it begins, robot axes, m/s
+};
 
-  double at(const Vector2& offset) const { return constant + perAhead * offset.x() + perAside * offset.y(); }
+/// What a kick can suit itself to when it begins, as the left foot does it.
+enum class KickInput : std::uint8_t {
+  BallAhead,  // of its place (KickHead::p_RBall) the ball is believed to lie, m
+  BallAside,  // to the left of it, m
+  Turn,       // to the left of the kick's own direction the ball should go, rad
+  PaceAhead,  // of the steps out of which it begins, m/s
+  PaceAside,  // to the left, m/s
+};
+constexpr int kKickInputs = 5;
+using KickInputs = Eigen::Matrix<double, kKickInputs, 1>;
+
+/// A number of a skill: `constant` and a multiple of each input.
+struct KickValue {
+  double constant = 0.0;
+  KickInputs per = KickInputs::Zero();
+
+  double at(const KickInputs& inputs) const { return constant + per.dot(inputs); }
 };
 
 struct JointGoal {
   model::JointId joint = model::JointId::Head1;
-  BallValue angle;  // rad, of this very joint (already mirrored for the right side)
-  BallValue after;  // s, how long a swing waits with this joint
+  KickValue angle;  // rad, of this very joint (already mirrored for the right side)
+  KickValue after;  // s, how long a swing waits with this joint
 };
 
 /// What a skill says of itself that kicks the ball: team, motion and the reports read it. For the left foot;
@@ -50,6 +65,7 @@ struct KickHead {
   Vector2 p_RBall = Vector2::Zero();    // place of the ball seen from the stand, m
   Vector2 tolerance = Vector2::Zero();  // how far from there it may lie, ahead and aside, m
   double direction = 0.0;               // of the ball's way, robot frame, rad
+  double turn = 0.0;                    // how far to either side of that it can send the ball, rad
   double shortest = 0.0;                // distances that it serves, m
   double longest = 0.0;
   double contact = 0.0;      // s from the begin of the skill to the foot's contact with the ball
@@ -112,7 +128,7 @@ struct Instruction {
   };
   Kind kind = Kind::End;
   double value = 0.0;
-  BallValue duration;  // s, of MoveOver and Swing
+  KickValue duration;  // s, of MoveOver and Swing
   std::vector<JointGoal> joints;
   std::vector<FootGoal> feet;
   std::vector<FootGoal> points;  // of a curve, at most kMostPoints, all of one side

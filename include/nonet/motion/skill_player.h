@@ -25,10 +25,10 @@ class SkillPlayer {
               const model::JointArray& stand = {});
 
   /// False if there is no such skill. Begins at the angles in `commanded` (what the joints were told last).
-  /// `p_RBall`: where curves "from ball" take the ball to be (robot frame on the ground, m); by default where
-  /// the world state has it when the curve begins.
+  /// `aim`: for kicks. Without it curves "from ball" take the ball to be where the world state has it when
+  /// the curve begins.
   bool start(std::string_view name, bool mirrored, const model::JointArray& commanded,
-             const std::optional<Vector2>& p_RBall = std::nullopt);
+             const std::optional<KickAim>& aim = std::nullopt);
   void stop() { depth_ = 0; }
   bool running() const { return depth_ > 0; }
   double elapsed() const { return time_; }  // s since start
@@ -67,17 +67,17 @@ class SkillPlayer {
   model::JointArray stand_;
   std::array<Frame, SkillLibrary::kDeepestCall + 1> frames_{};
   int depth_ = 0;
-  double time_ = 0.0;                     // since the start of the outermost skill, s
-  bool begun_ = false;                    // the present instruction has begun
-  double inInstruction_ = 0.0;            // s
-  double duration_ = 0.0;                 // of the present instruction, s
-  model::JointArray from_{};              // angles at its begin
-  model::JointArray to_{};                // at its end, where `moves_` says so
-  model::JointArray after_{};             // delays of a swing, s
-  std::uint32_t moves_ = 0;               // bit per joint
-  FootPoses feetFrom_{};                  // sole poses at its begin
-  std::optional<Vector2> ball_;           // given at the start
-  Vector2 ballOffset_ = Vector2::Zero();  // of it from the kick's place, left foot's side, m
+  double time_ = 0.0;            // since the start of the outermost skill, s
+  bool begun_ = false;           // the present instruction has begun
+  double inInstruction_ = 0.0;   // s
+  double duration_ = 0.0;        // of the present instruction, s
+  model::JointArray from_{};     // angles at its begin
+  model::JointArray to_{};       // at its end, where `moves_` says so
+  model::JointArray after_{};    // delays of a swing, s
+  std::uint32_t moves_ = 0;      // bit per joint
+  FootPoses feetFrom_{};         // sole poses at its begin
+  std::optional<Vector2> ball_;  // given at the start
+  KickInputs inputs_ = KickInputs::Zero();
   // The present curve, over its share 0..1: sole in the torso frame, m; attitude at the points, rad.
   HermiteSpline<Vector3, Instruction::kMostPoints + 1> curve_;
   std::array<Vector3, Instruction::kMostPoints + 1> curveAttitudes_{};

@@ -29,7 +29,7 @@ class Candidates {
   std::span<const Candidate> all() const { return {items_.data(), count_}; }
 
  private:
-  std::array<Candidate, 32> items_{};
+  std::array<Candidate, 64> items_{};
   std::size_t count_ = 0;
 };
 

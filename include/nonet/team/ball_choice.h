@@ -4,10 +4,13 @@
 //
 //   V = P(nobody steps in the way) * [ P(we are first) * worth(end) - P(they are first) * worth'(end) ]
 //
-// with worth falling exponentially with the distance from the goal, worth' the same for the other goal, and
-// everything weighed with the probability that the kick comes off before an opponent is at the ball. A shot
-// that crosses the line between the posts is worth a goal.
+// for every kick of the catalogue with its own length and time, with worth falling exponentially with the
+// distance from the goal, worth' the same for the other goal, and everything weighed with the probability
+// that the kick comes off before an opponent is at the ball. A shot that crosses the line between the posts
+// is worth a goal.
 #pragma once
+
+#include <string_view>
 
 #include "nonet/team/situation.h"
 
@@ -17,6 +20,7 @@ struct BallChoice {
   bool kick = false;                    // otherwise dribble
   Vector2 p_FTarget = Vector2::Zero();  // where the ball is to go, own field frame, m
   double value = 0.0;
+  std::string_view with;  // name of the kick
 };
 
 /// The best thing to do for the one whose turn it is; candidates are written to `record` unless it is null.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "nonet/team/action.h"
 #include "nonet/team/parameters.h"
@@ -27,6 +28,7 @@ struct BallIntent {
 struct BallPlay {
   Vector2 p_FTarget = Vector2::Zero();  // own field frame, m
   KickUse use = KickUse::Never;
+  std::string_view kick;                 // this one only; empty: the cheapest
   bool wait = false;                     // stand ready behind the ball, but do not touch it yet
   Vector2 p_FMeeting = Vector2::Zero();  // where the ball will be when one comes there, own field frame, m
 

@@ -17,7 +17,8 @@ struct ChoiceParameters {
   double ownPace = 0.9;
   double opponentPace = 0.6;
   double arrivalSpread = 0.8;
-  double setup = 1.0;
+  double setupStand = 1.0;
+  double setupWalk = 0.5;
   double setupSpread = 0.4;
   double dribbleAhead = 3.0;
   double dribbleLoss = 0.6;
@@ -66,12 +67,18 @@ struct ChoiceParameters {
            fixed,
            "Lead in time that makes it nearly certain who comes first"},
           self.arrivalSpread);
-    visit({"setup",
+    visit({"setupStand",
            Unit::Second,
            {0, 10},
            search(0.3, 3),
-           "From the arrival at the ball to the contact of a kick"},
-          self.setup);
+           "From the arrival at the ball to the begin of a kick from a stand"},
+          self.setupStand);
+    visit({"setupWalk",
+           Unit::Second,
+           {0, 10},
+           search(0.1, 2),
+           "From the arrival at the ball to the begin of a kick out of the walk"},
+          self.setupWalk);
     visit({"setupSpread", Unit::Second, {0.01, 10}, fixed, "Uncertainty of that"}, self.setupSpread);
     visit({"dribbleAhead", Unit::Metre, {0, 10}, search(0.5, 4), "How far a dribble carries the ball"},
           self.dribbleAhead);

@@ -1,7 +1,7 @@
 // swing_NAME: the kick kick_NAME from the moment it begins (swing_trial.h). For finding a kick's numbers
 // before kick_NAME polishes them with the approach. The fitness is the distance towards the target less what
 // goes aside, 1.2 m for every second until contact and what the robot leans afterwards, less half the spread
-// over the starts; -1 for a fall, a miss or a ball that leaves by more than ten degrees.
+// over the starts; -1 for a miss or a ball that leaves by more than ten degrees, and up to that for a fall.
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -21,16 +21,17 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kStarts = 60;         // that are stored
-constexpr int kSwings = 6;          // a trial
+constexpr int kStarts = 240;        // that are stored: fewer are learned by heart
+constexpr int kSwings = 8;          // a trial
 constexpr double kPenalty = -1.0;   // m
 constexpr double kPerSecond = 1.2;  // m/s
 constexpr double kStraight = toRadians(10.0);
-constexpr double kLeans = 0.3;       // rad, free
-constexpr double kPerLean = 2.0;     // m/rad
-constexpr double kSpread = 0.5;      // share of the standard deviation
-constexpr double kRolling = 0.3;     // m/s
-constexpr std::uint64_t kSeed = 26;  // of the starts
+constexpr double kLeans = 0.3;         // rad, free
+constexpr double kPerLean = 2.0;       // m/rad
+constexpr double kLastsUpright = 1.5;  // s after contact: who falls later is nearer to standing
+constexpr double kSpread = 0.5;        // share of the standard deviation
+constexpr double kRolling = 0.3;       // m/s
+constexpr std::uint64_t kSeed = 26;    // of the starts
 
 using Starts = std::vector<KickStart>;
 
@@ -55,7 +56,8 @@ Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
 
 double gained(const Swing& swing) {
   const Kick& kick = swing.kick;
-  if (kick.fell || kick.missed() || std::abs(kick.direction()) > kStraight) return kPenalty;
+  if (kick.missed() || std::abs(kick.direction()) > kStraight) return kPenalty;
+  if (kick.fell) return kPenalty * (1.0 - std::min(1.0, swing.upright / kLastsUpright));
   return kick.forward - std::abs(kick.aside) - kPerSecond * kick.time -
          kPerLean * std::max(0.0, swing.lean - kLeans);
 }

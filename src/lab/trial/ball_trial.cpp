@@ -37,9 +37,9 @@ struct KickWatch {
 
 KickWatch watchOf(const motion::MotionState& motion) {
   KickWatch watch;
-  watch.ready = !motion.kick.empty() && (motion.kickInPlace || motion.busy);
+  watch.ready = !motion.kick.name.empty() && (motion.kick.inPlace || motion.busy);
   for (const motion::KickOption& option : motion.kicks) {
-    if (option.name == motion.kick) watch.direction = option.head.direction;
+    if (option.name == motion.kick.name) watch.direction = option.head.direction;
   }
   return watch;
 }

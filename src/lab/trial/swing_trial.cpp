@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,7 +23,10 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kStands = 0.8;  // s after the kick's end that the robot must stand
+constexpr double kStands = 0.8;    // s after the kick's end that the robot must stand,
+constexpr double kSettles = 0.2;   // or this long if it is nearly upright and
+constexpr double kUpright = 0.15;  // rad
+constexpr double kAtRest = 0.3;    // rad/s, hardly turns any more
 
 const motion::KickOption* optionOf(const motion::KickCatalogue& catalogue, std::string_view kick,
                                    model::Side foot) {
@@ -53,8 +57,8 @@ std::optional<KickStart> kickStart(const agent::AgentConfig& agent, const sim::S
     trial.step();
     if (!motion.busy) continue;
     for (const motion::KickOption& option : motion.kicks)
-      if (option.name == motion.kick && option.foot == motion.kickFoot)
-        return KickStart{worlds[0], motion.kickFoot, motion.kickBall, option.head.p_RBall};
+      if (option.name == motion.kick.name && option.foot == motion.kick.foot)
+        return KickStart{worlds[0], option.foot, motion.kick.aim, option.head.p_RBall};
   }
   return std::nullopt;
 }
@@ -109,9 +113,11 @@ struct SwingTrial::Implementation {
       body.joints[model::index(joint.id)] = world.jointAngle(robot, joint.id);
     targets = {};
     targets.angles = body.joints;
-    direction = X_WR.rotation + option.head.direction;
+    direction = X_WR.rotation + option.head.direction + start.aim.turn;
     state.body = body;
-    player.start(kick, start.foot == model::Side::Right, targets.angles, start.p_RBall + moved);
+    motion::KickAim aim = start.aim;
+    aim.ball += moved;
+    player.start(kick, start.foot == model::Side::Right, targets.angles, aim);
   }
 
   Swing run(const KickStart& start) {
@@ -120,9 +126,11 @@ struct SwingTrial::Implementation {
     Kick& result = swing.kick;
     double time = 0.0;
     double over = 0.0;  // s since the end of the skill
+    double tilt = trueTilt(world, robot);
+    bool settled = false;
     Vector2 from = ball().p_FB.head<2>();
     const Pose2 aim(from, direction);
-    while (over < kStands && !result.fell) {
+    while (over < kStands && !settled && !result.fell) {
       if (player.running()) player.update(state, targets);
       over += player.running() ? 0.0 : kCycleTime;
       const double before = ball().v_FB.norm();
@@ -135,7 +143,12 @@ struct SwingTrial::Implementation {
       }
       result.ballSpeed = std::max(result.ballSpeed, now.v_FB.norm());
       if (result.height == 0.0 && (now.p_FB.head<2>() - from).norm() > 1.0) result.height = now.p_FB.z();
-      if (result.contact) swing.lean = std::max(swing.lean, trueTilt(world, robot));
+      const double tiltBefore = std::exchange(tilt, trueTilt(world, robot));
+      if (result.contact) {
+        swing.lean = std::max(swing.lean, tilt);
+        swing.upright = time - result.time;
+      }
+      settled = over > kSettles && tilt < kUpright && std::abs(tilt - tiltBefore) < kAtRest * kCycleTime;
       result.fell = isDown(world, robot);
     }
     const Vector2 way = aim.inverse() * world::restPlace(ball());

@@ -33,7 +33,7 @@ bool isBehind(const Situation& s) {
 
 std::optional<Action> kick(const Situation& s) {
   if (!s.play || s.motion.kicks.empty()) return std::nullopt;
-  const bool there = s.motion.askedForKick() && s.motion.kickInPlace;
+  const bool there = s.motion.askedForKick() && s.motion.kick.inPlace;
   if (!mayKick(s, there) || !(there || isBehind(s))) return std::nullopt;
   const BallPlay& play = *s.play;
   motion::KickTo request;
@@ -41,6 +41,7 @@ std::optional<Action> kick(const Situation& s) {
   request.target = play.target;
   request.ballVelocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
   request.room = s.nearestOpponent;
+  request.kick.assign(play.kick);
   Action action(request, there ? "in place" : "line up");
   action.reason.candidates = play.candidates;
   return action;

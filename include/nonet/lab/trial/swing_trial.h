@@ -13,6 +13,7 @@
 #include "nonet/agent/agent.h"
 #include "nonet/lab/trial/kick_trial.h"
 #include "nonet/model/joints.h"
+#include "nonet/motion/skill.h"
 
 namespace nonet::lab {
 
@@ -20,7 +21,7 @@ namespace nonet::lab {
 struct KickStart {
   std::vector<std::uint8_t> world;       // sim::World::save()
   model::Side foot = model::Side::Left;  // that kicks
-  Vector2 p_RBall = Vector2::Zero();     // where the robot took the ball to be, robot frame, m
+  motion::KickAim aim;                   // what the kick was told
   Vector2 p_RPlace = Vector2::Zero();    // the kick's place of the ball (its head, for this foot), m
 };
 
@@ -29,8 +30,9 @@ std::optional<KickStart> kickStart(const agent::AgentConfig& agent, const sim::S
                                    const KickScene& scene, std::uint64_t seed);
 
 struct Swing {
-  Kick kick;          // time from the begin of the kick; the target lies in its direction
-  double lean = 0.0;  // the torso's largest tilt after contact, rad
+  Kick kick;             // time from the begin of the kick; the target lies in its direction
+  double lean = 0.0;     // the torso's largest tilt after contact, rad
+  double upright = 0.0;  // how long it was not down after contact, s
 };
 
 /// One kick on a world of its own, for many starts.
