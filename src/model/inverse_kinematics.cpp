@@ -16,6 +16,8 @@ namespace {
 constexpr double kAngleTolerance = 1e-9;    // rad
 constexpr double kLengthTolerance = 1e-10;  // m
 constexpr int kMaxFitIterations = 60;
+constexpr int kShiftSteps = 4;
+constexpr double kShiftDamping = 0.02;  // m/rad
 
 JointId firstLegJoint(Side side) {
   return side == Side::Left ? JointId::LLeg1 : JointId::RLeg1;
@@ -160,6 +162,21 @@ Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS
   if (clampAngles(leg.low, leg.high, angles) && reach != Reach::Limited) return reach;
   fitLeg(model, side, X_RS, angles);
   return reach == Reach::TooFar ? Reach::TooFar : Reach::Limited;
+}
+
+void shiftSole(const RobotModel& model, Side side, const Vector3& way, LegAngles& angles) {
+  const Limb<6> limb = legLimb(model, side);
+  Eigen::Map<Eigen::Matrix<double, 6, 1>> x(angles.data());
+  Pose3 goal = limb.evaluate(x, nullptr);
+  goal.translation() += way;
+  for (int i = 0; i < kShiftSteps; ++i) {
+    Eigen::Matrix<double, 6, 1> residual;
+    Eigen::Matrix<double, 6, 6> derivative;
+    PoseResidual::evaluate<6>(limb, x, goal, residual, &derivative);
+    Eigen::Matrix<double, 6, 6> normal = derivative.transpose() * derivative;
+    normal.diagonal().array() += kShiftDamping * kShiftDamping;
+    x -= normal.ldlt().solve(derivative.transpose() * residual);
+  }
 }
 
 void setLegAngles(Side side, const LegAngles& leg, JointArray& joints) {

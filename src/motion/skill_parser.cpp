@@ -140,8 +140,8 @@ class Parser : private SkillReader {
     return token.kind == Kind::Word && std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
   }
   static bool isTarget(const SkillToken& token) {
-    static constexpr std::array<std::string_view, 7> kWords{"left", "right", "both", "head",
-                                                            "foot", "stand", "point"};
+    static constexpr std::array<std::string_view, 8> kWords{"left", "right", "both",  "head",
+                                                            "foot", "stand", "point", "shift"};
     return token.kind == Kind::Word && std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
   }
 
@@ -194,6 +194,10 @@ class Parser : private SkillReader {
     instruction.duration = duration();
     expect("{");
     while (!accept("}")) {
+      if (accept("shift")) {
+        shift(instruction);
+        continue;
+      }
       const std::size_t before = instruction.joints.size();
       joints(instruction, true);
       if (!accept("after")) continue;
@@ -234,10 +238,25 @@ class Parser : private SkillReader {
 
   // Where a joint or a foot is to be at the end of a move or curve.
   void target(Instruction& instruction) {
+    if (accept("shift")) return shift(instruction);
     if (!accept("foot")) return joints(instruction, true);
     const Side foot = side();
     expect("at");
     instruction.feet.push_back(pose(foot));
+  }
+
+  // "shift left foot by (1m * ballAhead, 1m * ballAside, 0)"
+  void shift(Instruction& instruction) {
+    FootShift& shift = instruction.shifts.emplace_back();
+    shift.side = side();
+    expect("foot");
+    expect("by");
+    expect("(");
+    for (std::size_t i = 0; i < shift.way.size(); ++i) {
+      if (i > 0) expect(",");
+      shift.way[i] = kickValue(Unit::Metre);
+    }
+    expect(")");
   }
 
   FootGoal pose(Side side) {

@@ -249,6 +249,25 @@ void SkillPlayer::chooseGoals(const Instruction& instruction, bool mirrored) {
     after_[i] = goal.after.at(inputs_);
     moves_ |= 1U << i;
   }
+  for (const FootShift& shift : instruction.shifts) shiftFoot(shift, mirrored);
+}
+
+// The leg's joints without a goal of their own go along from where they are.
+void SkillPlayer::shiftFoot(const FootShift& shift, bool mirrored) {
+  const Side side = mirrored ? model::other(shift.side) : shift.side;
+  model::JointArray goals = from_;
+  for (std::size_t i = 0; i < model::kJointCount; ++i)
+    if ((moves_ >> i) & 1U) goals[i] = to_[i];
+  const Vector3 way(shift.way[0].at(inputs_), (mirrored ? -1.0 : 1.0) * shift.way[1].at(inputs_),
+                    shift.way[2].at(inputs_));
+  model::LegAngles leg = model::legAngles(side, goals);
+  model::shiftSole(*model_, side, way, leg);
+  model::setLegAngles(side, leg, to_);
+  const std::size_t first = model::index(side == Side::Left ? JointId::LLeg1 : JointId::RLeg1);
+  for (std::size_t i = first; i < first + leg.size(); ++i) {
+    if (((moves_ >> i) & 1U) == 0) after_[i] = 0.0;
+    moves_ |= 1U << i;
+  }
 }
 
 // What a kick asks of a joint may be too far for its time; the next statement begins where the joint is then.

@@ -277,6 +277,23 @@ TEST(LegInverseKinematics, AtTheLimitsItIsAsNearAsTheNumericSolver) {
   EXPECT_LE(beaten, limited / 50);
 }
 
+// Against the forward kinematics, in postures in which a kick's foot is.
+TEST(LegInverseKinematics, TheShiftedSoleIsWhereItShouldBe) {
+  Random random(8);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const RobotModel& model = robotModel(trial % kRobotTypeCount);
+    const Side side = trial % 2 == 0 ? Side::Left : Side::Right;
+    LegAngles leg{random.uniform(-0.5, 0.0),  random.uniform(-0.2, 0.2), random.uniform(0.2, 1.2),
+                  random.uniform(-1.8, -0.7), random.uniform(-0.5, 1.0), random.uniform(-0.3, 0.3)};
+    const Pose3 before = soleOf(model, side, leg);
+    const Vector3 way(random.uniform(-0.05, 0.05), random.uniform(-0.04, 0.04), random.uniform(-0.01, 0.01));
+    shiftSole(model, side, way, leg);
+    Pose3 wanted = before;
+    wanted.translation() += way;
+    EXPECT_LT(distance(soleOf(model, side, leg), wanted), 0.003) << "trial " << trial;
+  }
+}
+
 TEST(ArmInverseKinematics, ReachesRandomPlacesOfAllTypes) {
   Random random(31);
   for (int type = 0; type < kRobotTypeCount; ++type) {

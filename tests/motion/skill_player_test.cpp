@@ -84,6 +84,33 @@ TEST_F(Player, KicksSuitThemselvesToBallAimAndPace) {
   }
 }
 
+// Against the forward kinematics; the right foot does what the left one does, mirrored.
+TEST_F(Player, KicksShiftTheFootWithTheBall) {
+  const std::string text =
+      "skill a { kick { ball (0.2m, 5cm) distance 1m..2m contact 0.1s }"
+      "move over 0.4s { left.hipPitch 0.6rad left.knee -1rad shift left foot by "
+      "(1m * ballAhead, 0.5m * ballAside, 0.01m) } }";
+  library_ = SkillLibrary(parseSkills(text, "test.skl"));
+  world_.body.cycleTime = kCycleTime;
+  for (const bool mirrored : {false, true}) {
+    const model::Side side = mirrored ? model::Side::Right : model::Side::Left;
+    const double left = mirrored ? -1.0 : 1.0;
+    std::array<Vector3, 2> soles;
+    for (const bool off : {false, true}) {
+      player_ = std::make_unique<SkillPlayer>(model_, library_);
+      targets_.angles.fill(0.0);
+      targets_.stiffness.fill(1.0);
+      const Vector2 ball = off ? Vector2(0.23, left * 0.02) : Vector2(0.2, left * 0.05);
+      ASSERT_TRUE(player_->start("a", mirrored, targets_.angles, KickAim{ball, 0.0, Vector2::Zero()}));
+      cyclesToEnd();
+      model::BodyPoses bodies;
+      model::forwardKinematics(model_, targets_.angles, bodies);
+      soles[off ? 1 : 0] = model::solePose(model_, bodies, side).translation();
+    }
+    EXPECT_NEAR((soles[1] - soles[0] - Vector3(0.03, -left * 0.015, 0.0)).norm(), 0.0, 0.003);
+  }
+}
+
 // What a kick asks of a joint may be too far for its time: it goes as far as it can.
 TEST_F(Player, KicksKeepToTheSpeedsOfTheJoints) {
   load(
@@ -193,7 +220,8 @@ TEST_F(Player, CurvesPassThroughTheirPointsRelativeToTheBall) {
   load(
       "skill a { curve left foot over 0.2s from ball { point (-0.16m, 0, -5mm) point (-0.1m, 10mm, 20mm) } "
       "}");
-  ASSERT_TRUE(player_->start("a", false, targets_.angles, KickAim{Vector2(0.15, 0.055), 0.0, Vector2::Zero()}));
+  ASSERT_TRUE(
+      player_->start("a", false, targets_.angles, KickAim{Vector2(0.15, 0.055), 0.0, Vector2::Zero()}));
   model::BodyPoses bodies;
   for (int i = 0; i < 5; ++i) step();
   model::forwardKinematics(model_, targets_.angles, bodies);

@@ -5,6 +5,7 @@
 // of the left side; the right joint takes the mirrored angle.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -83,6 +84,12 @@ struct FootGoal {
   Vector3 rollPitchYaw = Vector3::Zero();  // rad, applied as yaw, then pitch, then roll
 };
 
+/// Where the ball is moves the foot of a kick: on top of its joints' angles, as the left foot does it.
+struct FootShift {
+  model::Side side = model::Side::Left;
+  std::array<KickValue, 3> way;  // torso frame, m
+};
+
 enum class Quantity : std::uint8_t { Time, Pitch, Roll, Rate, Height, BallDistance, BallX, BallY };
 
 /// Condition tree in a flat list; children are indices into the same list.
@@ -131,6 +138,7 @@ struct Instruction {
   KickValue duration;  // s, of MoveOver and Swing
   std::vector<JointGoal> joints;
   std::vector<FootGoal> feet;
+  std::vector<FootShift> shifts;
   std::vector<FootGoal> points;  // of a curve, at most kMostPoints, all of one side
   bool fromBall = false;         // the points are relative to the ball
   bool stand = false;            // every joint that has no goal of its own goes to the stand

@@ -53,6 +53,7 @@ class SkillPlayer {
              const world::WorldState& world, const JointTargets& targets);
   void keepReachable();
   void chooseGoals(const Instruction& instruction, bool mirrored);
+  void shiftFoot(const FootShift& shift, bool mirrored);
   void place(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
   void placeSwing(JointTargets& targets) const;
   void planCurve(const Instruction& instruction, bool mirrored, const world::WorldState& world);

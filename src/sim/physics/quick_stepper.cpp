@@ -272,7 +272,7 @@ void integrate(Multibody& multibody, double seconds) {
     dBodySetQuaternion(body, turned);  // normalises
     dBodySetForce(body, 0.0, 0.0, 0.0);
     dBodySetTorque(body, 0.0, 0.0, 0.0);
-    dBodyEnable(body);
+    if (dBodyIsEnabled(body) == 0) wakeBody(*multibody.nodes[i]);
   }
 }
 
