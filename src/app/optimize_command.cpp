@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
@@ -311,6 +312,7 @@ int compareSolvers(OptimizeArguments& arguments) {
 
 int runOptimize(OptimizeArguments& arguments, bool generationsGiven) {
   if (arguments.list) return listTasks();
+  spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   if (!arguments.repeat.empty()) return repeatFile(arguments);
   if (arguments.task.empty() && !arguments.resume) {
     fmt::print(stderr, "nonet optimize: name a task; --list shows them\n");

@@ -44,10 +44,6 @@ double soonest(std::span<const world::PlayerState> players, const Vector2& p_F, 
   return least;
 }
 
-double opponentsTime(const Situation& s, const Vector2& p_F) {
-  return soonest(s.world.opponents, p_F, s.parameters.choice.opponentPace, s.parameters.pace.risingTime);
-}
-
 // That we need `ours` and they `theirs` seconds, which may be infinite: the probability that we are first.
 double first(double ours, double theirs, double spread) {
   return std::isinf(theirs) ? 1.0 : logistic((theirs - ours) / spread);
@@ -145,6 +141,10 @@ std::optional<double> presentKick(const Situation& s) {
 }
 
 }  // namespace
+
+double opponentsTime(const Situation& s, const Vector2& p_F) {
+  return soonest(s.world.opponents, p_F, s.parameters.choice.opponentPace, s.parameters.pace.risingTime);
+}
 
 double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& p) {
   const Vector2 goal(0.5 * field.length, 0.0);

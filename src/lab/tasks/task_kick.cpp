@@ -3,14 +3,13 @@
 // towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a miss or a ball that
 // leaves by more than ten degrees.
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <string>
 
 #include "nonet/lab/trial/kick_trial.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
 
+#include "lab/tasks/named_tasks.h"
 #include "lab/tasks/tasks.h"
 
 namespace nonet::lab {
@@ -75,12 +74,7 @@ class KickTask final : public Task {
 }  // namespace
 
 const Task& kickTask(std::string_view name) {
-  static std::mutex mutex;
-  static std::map<std::string, KickTask, std::less<>> tasks;
-  const std::lock_guard lock(mutex);
-  const auto found = tasks.find(name);
-  if (found != tasks.end()) return found->second;
-  return tasks.try_emplace(std::string(name), std::string(name)).first->second;
+  return taskNamed<KickTask>(name);
 }
 
 }  // namespace nonet::lab

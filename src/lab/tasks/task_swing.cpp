@@ -15,6 +15,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
 
+#include "lab/tasks/named_tasks.h"
 #include "lab/tasks/tasks.h"
 
 namespace nonet::lab {
@@ -118,12 +119,7 @@ class SwingTask final : public Task {
 }  // namespace
 
 const Task& swingTask(std::string_view name) {
-  static std::mutex mutex;
-  static std::map<std::string, SwingTask, std::less<>> tasks;
-  const std::lock_guard lock(mutex);
-  const auto found = tasks.find(name);
-  if (found != tasks.end()) return found->second;
-  return tasks.try_emplace(std::string(name), std::string(name)).first->second;
+  return taskNamed<SwingTask>(name);
 }
 
 }  // namespace nonet::lab

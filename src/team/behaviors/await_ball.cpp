@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "nonet/math/direction.h"
+#include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 #include "nonet/team/navigation.h"
 #include "nonet/world/ball_law.h"
@@ -14,16 +14,6 @@ namespace {
 // s until the ball is slow enough to be kicked.
 double timeToSlow(double speed, double slow) {
   return std::log(speed / slow) / world::kRollDecay;
-}
-
-double opponentsTime(const Situation& s, const Vector2& p_F) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const world::PlayerState& opponent : s.world.opponents) {
-    if (!opponent.known) continue;
-    const double way = (opponent.X_FP.translation - p_F).norm();
-    least = std::min(least, way / s.parameters.choice.opponentPace);
-  }
-  return least;
 }
 
 // Out of the ball's way: beside it, on the side on which the robot is.
