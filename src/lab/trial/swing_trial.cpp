@@ -12,6 +12,7 @@
 #include "nonet/lab/trial/true_pose.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
+#include "nonet/motion/joint_control.h"
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/motion/skill_player.h"
 #include "nonet/motion/walk/engine.h"
@@ -71,22 +72,25 @@ struct SwingTrial::Implementation {
         catalogue(library, agent.robotType),
         stand(motion::WalkEngine::standAngles(
             model, agent.parameters.motion.sets.of(agent.parameters.motion.selection.standSet()))),
-        margin(agent.parameters.motion.control.stopMargin),
+        control(model, agent.parameters.motion.control),
         player(model, library, stand),
         world(worldOf(quickSolver)) {
     if (optionOf(catalogue, kick, model::Side::Left) == nullptr)
       throw std::runtime_error(fmt::format("type {} has no kick '{}'", agent.robotType, kick));
   }
 
-  // Joints take any speed within one step, so a target is reached at once if the speed allows
-  // (joint_control.h).
+  // A command acts a cycle after the angles that it was made from, so a joint that was held up is told so a
+  // cycle later (joint_control.h).
   void moveJoints() {
+    control.update(body, targets, effectors);
     for (const model::JointSpec& joint : model.joints()) {
-      const double target =
-          std::clamp(targets.angles[model::index(joint.id)], joint.low + margin, joint.high - margin);
-      const double angle = world.jointAngle(robot, joint.id);
-      world.setJointSpeed(robot, joint.id, static_cast<float>((target - angle) / kCycleTime));
+      world.setJointSpeed(robot, joint.id, static_cast<float>(effectors.speeds[model::index(joint.id)]));
     }
+    readJoints();
+  }
+  void readJoints() {
+    for (const model::JointSpec& joint : model.joints())
+      body.joints[model::index(joint.id)] = world.jointAngle(robot, joint.id);
   }
 
   void step() {
@@ -109,10 +113,11 @@ struct SwingTrial::Implementation {
     place.head<2>() += X_WR.rotate(moved).cast<float>();
     world.setBallPosition(place);
     body.cycleTime = kCycleTime;
-    for (const model::JointSpec& joint : model.joints())
-      body.joints[model::index(joint.id)] = world.jointAngle(robot, joint.id);
+    readJoints();
+    control.reset();
     targets = {};
     targets.angles = body.joints;
+    targets.stiffness.fill(1.0);
     direction = X_WR.rotation + option.head.direction + start.aim.turn;
     state.body = body;
     motion::KickAim aim = start.aim;
@@ -162,13 +167,14 @@ struct SwingTrial::Implementation {
   motion::SkillLibrary library;
   motion::KickCatalogue catalogue;
   model::JointArray stand;
-  double margin;  // rad that targets keep from the stops
+  motion::JointControl control;
   motion::SkillPlayer player;
   sim::World world;
   sim::RobotHandle robot = sim::kNoRobot;
   world::BodyState body;
   world::WorldState state;
   motion::JointTargets targets;
+  protocol::Effectors effectors;
   Pose2 X_WR;              // when the kick began
   double direction = 0.0;  // world, rad: where the ball should go
 };
