@@ -13,7 +13,7 @@ findBinary
 
 # Robot types by uniform number. Every prefix of this list satisfies the server's rules: at most 7 of one type, any
 # two types together at most 9, at least 3 different types.
-types=(0 4 4 1 1 0 3 4 4 2 3)
+types=(0 2 2 2 2 2 2 2 4 1 3)
 for ((unum = 1; unum <= count; unum++)); do
   [ "$unum" -eq 1 ] || sleep "${NONET_STAGGER:-0.3}"
   launch "${team}_$unum" --unum "$unum" --type "${types[unum - 1]}" "${options[@]}"

@@ -102,7 +102,7 @@ std::uint64_t agentSeed(std::uint64_t matchSeed, bool rightTeam, int unum) {
 }
 
 int usualRobotType(int unum) {
-  constexpr std::array<int, 12> kTypes = {0, 0, 4, 4, 1, 1, 0, 3, 4, 4, 2, 3};
+  constexpr std::array<int, 12> kTypes = {0, 0, 2, 2, 2, 2, 2, 2, 2, 4, 1, 3};
   return kTypes.at(static_cast<std::size_t>(unum));
 }
 

@@ -17,6 +17,7 @@ constexpr int kDirections = 12;  // to either side of straight ahead
 constexpr double kStep = toRadians(10.0);
 constexpr double kSlowRoll = 3.0;        // s until a kicked ball is slow enough to be taken
 constexpr double kSameKick = 0.2;        // rad
+constexpr double kAtBall = 0.15;         // m
 constexpr double kGoalLineMargin = 0.1;  // m beyond the line that a shot must reach
 
 double logistic(double x) {
@@ -115,11 +116,16 @@ double endValue(const Situation& s, const Vector2& p_F) {
   return -worthOf(-inside, field, p) - p.out * worthOf(inside, field, p);
 }
 
-// s from now until the foot meets the ball in this kick, from behind it.
-double timeToContact(const Situation& s, const motion::KickHead& kick, const Vector2& p_FTarget) {
+// s from now until the foot meets the ball in this kick in this direction (docs/results.md, contact times).
+double timeToContact(const Situation& s, const motion::KickHead& kick, double direction) {
   const ChoiceParameters& p = s.parameters.choice;
-  const double there = timeToBall({s.world.self.X_FR, true, false}, s.forecast, p_FTarget, s.parameters.pace);
-  return there + kick.contact + (kick.fromWalk ? p.setupWalk : p.setupStand);
+  const Pose2& X_FR = s.world.self.X_FR;
+  const Vector2 way = s.ball() - X_FR.translation;
+  // Near the ball, where it lies from the torso says nothing.
+  const double besides = way.norm() > kAtBall ? 1.0 - std::cos(directionOf(way) - direction) : 0.0;
+  const double turned = 1.0 - std::cos(X_FR.rotation - direction);
+  return way.norm() / p.kickPace + p.kickAround * std::max(besides, turned) + kick.contact +
+         (kick.fromWalk ? p.setupWalk : p.setupStand);
 }
 
 double dribbleValue(const Situation& s) {
@@ -168,7 +174,7 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   BallChoice best{false, s.p_FTarget, dribbleValue(s), {}};
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.p_FTarget, best.value);
-  const double left = opponentsTime(s, s.ball());
+  const double left = std::max(0.0, opponentsTime(s, s.ball()) - p.opponentReach / p.opponentPace);
   const double contested = valueAt(s, s.ball(), 0.5);
   const std::optional<double> present = presentKick(s);
   const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
@@ -179,7 +185,7 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
     for (int i = -kDirections; i <= kDirections; ++i) {
       const double direction = straight + kStep * i;
       const Vector2 target = s.ball() + length * unitVector(direction);
-      const double comesOff = first(timeToContact(s, kick.head, target), left, p.setupSpread);
+      const double comesOff = first(timeToContact(s, kick.head, direction), left, p.setupSpread);
       double value = comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
       if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
       if (record != nullptr) record->add(target, value);

@@ -1,5 +1,9 @@
 #include "nonet/team/behavior.h"
 
+#include <cmath>
+
+#include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/team/strategy.h"
 
 namespace nonet::team {
@@ -13,6 +17,22 @@ motion::HeadRequest lookAtBall(const world::WorldState& world) {
   if (!recently || lost) return head;
   head.kind = motion::HeadRequest::Kind::Point;
   head.p_RP = Vector3(world.ball.p_RB.x(), world.ball.p_RB.y(), world.ball.p_FB.z() - world.self.height);
+  return head;
+}
+
+// Along the way, for a moment, if the ball lies elsewhere and may be left unseen.
+std::optional<motion::HeadRequest> glance(const Situation& s, const Action& action) {
+  const GlanceParameters& p = s.parameters.glance;
+  const auto* walk = std::get_if<motion::WalkTo>(&action.motion);
+  if (walk == nullptr || s.role == Role::OnBall || s.role == Role::Goalie) return std::nullopt;
+  const Vector2 way = walk->target.translation;
+  const Vector2 ball = s.world.ball.p_RB;
+  if (way.norm() < p.farToGo || ball.norm() < p.farFromBall) return std::nullopt;
+  if (std::abs(angleDifference(directionOf(way), directionOf(ball))) < p.aside) return std::nullopt;
+  if (std::fmod(s.world.time, p.every) >= p.length) return std::nullopt;
+  motion::HeadRequest head;
+  head.kind = motion::HeadRequest::Kind::Look;
+  head.pan = directionOf(way);
   return head;
 }
 
@@ -33,6 +53,7 @@ const Action& Behavior::update(const world::WorldState& world, const motion::Mot
   role_ = situation.role;
   const std::optional<Action> own = challenge_.update(situation);
   action_ = own ? *own : decide(situation);
+  if (!action_.head) action_.head = glance(situation, action_);
   if (!action_.head) action_.head = lookAtBall(world);
   if (action_.beam) tracker_.noticeBeam(world.time);
   Tidings tidings = tidingsOf(situation);

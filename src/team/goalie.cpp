@@ -55,8 +55,11 @@ std::optional<ComingShot> comingShot(const Situation& s) {
 }
 
 Vector2 clearanceTarget(const Situation& s) {
-  const double aside = s.parameters.goalie.clearanceAside;
-  return {0.0, s.ball().y() >= 0.0 ? aside : -aside};
+  const GoalieParameters& p = s.parameters.goalie;
+  // In the middle the ball's side is noise: what the goalie has turned to stays.
+  const double y = s.ball().y();
+  const double side = std::abs(y) > p.clearanceSure ? y : std::sin(s.world.self.X_FR.rotation);
+  return {0.0, side >= 0.0 ? p.clearanceAside : -p.clearanceAside};
 }
 
 bool goalieWantsBall(const Situation& s, bool claims) {

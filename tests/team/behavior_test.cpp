@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/math/direction.h"
 #include "nonet/protocol/say_codec.h"
 
 #include "scene.h"
@@ -62,6 +63,29 @@ TEST_F(Stage, HoldsAKickThatItAskedFor) {
   scene.motion.request = motion::KickTo{};
   scene.motion.kick.inPlace = true;
   EXPECT_TRUE(std::holds_alternative<motion::KickTo>(cycle().motion));
+}
+
+// Another has the ball, and this one's place lies behind its back.
+TEST_F(Stage, WhoWalksFarFromTheBallLooksAlongItsWayNowAndThen) {
+  scene.putBall({-6.0, 0.0});
+  Scene::put(scene.world.teammates[7], Pose2(-6.3, 0.0, 0.0));
+  scene.stand(Pose2(2.0, 0.0, kPi / 2.0));
+  int along = 0;
+  int atBall = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Action& action = cycle();
+    const auto* walk = std::get_if<motion::WalkTo>(&action.motion);
+    if (walk == nullptr || walk->target.translation.norm() < scene.parameters.glance.farToGo) continue;
+    if (action.head->kind == motion::HeadRequest::Kind::Look) {
+      EXPECT_NEAR(action.head->pan, directionOf(walk->target.translation), 1e-12);
+      ++along;
+    } else {
+      ++atBall;
+    }
+  }
+  const GlanceParameters& p = scene.parameters.glance;
+  ASSERT_GT(along, 10);
+  EXPECT_NEAR(along / static_cast<double>(along + atBall), p.length / p.every, 0.15);
 }
 
 TEST_F(Stage, TheSameWorldsGiveTheSameActions) {

@@ -183,6 +183,22 @@ TEST(Goalie, KeepsItsClaimInALargerRegion) {
   }
 }
 
+// The ball of a goal kick lies in the middle, give or take what the eyes tell.
+TEST(Goalie, KeepsTheSideToWhichItClears) {
+  for (const double heading : {-0.3, 0.3}) {
+    for (const double y : {-0.02, 0.02}) {
+      Scene scene;
+      scene.world.game.unum = 1;
+      scene.world.game.phase = world::Phase::OwnGoalKick;
+      scene.stand(Pose2(-14.4, 0.0, heading));
+      scene.putBall({-14.0, y});
+      EXPECT_GT(clearanceTarget(scene.situation(Role::Goalie)).y() * heading, 0.0);
+      scene.putBall({-14.0, 100.0 * y});
+      EXPECT_GT(clearanceTarget(scene.situation(Role::Goalie)).y() * y, 0.0);
+    }
+  }
+}
+
 TEST(Goalie, StaysBetweenBallAndGoal) {
   for (const double y : {-6.0, 0.0, 6.0}) {
     const Scene scene = goalieScene({-5.0, y}, {0.0, 0.0});

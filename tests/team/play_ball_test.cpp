@@ -92,6 +92,23 @@ TEST(PlayBall, ComesToItsKickAlsoWhenSmallStepsLeadElsewhere) {
   }
 }
 
+// An opponent beside the ball forbids a kick, but not a shot with a free way.
+TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
+  const auto kicks = [](double ballX, const Vector2& opponent, double shotDistance) {
+    Scene scene;
+    scene.parameters.ball.shotDistance = shotDistance;
+    scene.stand(Pose2(ballX - 0.25, 0.0, 0.0));
+    scene.putBall({ballX, 0.0});
+    Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
+    return std::holds_alternative<motion::KickTo>(scene.handleBall({15.2, 0.0}, KickUse::IfFree));
+  };
+  EXPECT_FALSE(kicks(10.0, {10.0, 0.8}, 0.0));
+  EXPECT_TRUE(kicks(10.0, {10.0, 0.8}, 7.0));
+  EXPECT_FALSE(kicks(5.0, {5.0, 0.8}, 7.0)) << "too far from the goal";
+  EXPECT_FALSE(kicks(10.0, {10.0, 0.3}, 7.0)) << "no room";
+  EXPECT_FALSE(kicks(10.0, {13.0, 0.1}, 7.0)) << "somebody is in the way";
+}
+
 TEST(BallTarget, LiesInTheGoalOrBringsTheBallBackToTheMiddle) {
   world::WorldState world;
   for (double x = -15; x <= 15; x += 0.5) {

@@ -20,8 +20,8 @@ struct KickParameters {
   double gain = 8.0;
   double leastSpeed = 0.1;
   double mostSpeed = 0.8;
-  double strideSpeed = 0.12;
-  double strideTurn = 0.24;
+  double strideSpeed = 0.45;
+  double strideTurn = 0.8;
   double quietRate = 0.35;
   double quietTime = 0.1;
 

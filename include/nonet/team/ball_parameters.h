@@ -131,6 +131,8 @@ struct BallHandlingParameters {
   double handleDistance = 0.9;
   double waitBehind = 0.35;
   double kickPress = 0.4;
+  double shotDistance = 0.0;
+  double shotOpponentDistance = 0.4;
   double kickLaneLength = 3.0;
   double kickRolling = 0.3;
   double kickBehind = 0.08;
@@ -201,6 +203,16 @@ struct BallHandlingParameters {
            fixed,
            "Kick: share of kickOpponentDistance that holds once in place"},
           self.kickPress);
+    visit({"shotDistance",
+           Unit::Metre,
+           {0, 20},
+           search(0, 10),
+           "Kick: this near to the goal with a free way to it, opponents may be as near to the ball as "
+           "shotOpponentDistance; 0: no such shots"},
+          self.shotDistance);
+    visit(
+        {"shotOpponentDistance", Unit::Metre, {0, 10}, search(0.2, 1.8), "Kick: the room that a shot needs"},
+        self.shotOpponentDistance);
     visit({"kickLaneLength",
            Unit::Metre,
            {0.1, 20},

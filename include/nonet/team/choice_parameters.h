@@ -17,8 +17,11 @@ struct ChoiceParameters {
   double ownPace = 0.9;
   double opponentPace = 0.6;
   double arrivalSpread = 0.8;
-  double setupStand = 1.0;
-  double setupWalk = 0.5;
+  double setupStand = 0.65;
+  double setupWalk = 0.3;
+  double kickPace = 1.1;
+  double kickAround = 0.8;
+  double opponentReach = 0.25;
   double setupSpread = 0.4;
   double dribbleAhead = 3.0;
   double dribbleLoss = 0.6;
@@ -71,14 +74,28 @@ struct ChoiceParameters {
            Unit::Second,
            {0, 10},
            search(0.3, 3),
-           "From the arrival at the ball to the begin of a kick from a stand"},
+           "Besides the way: until a kick from a stand begins"},
           self.setupStand);
     visit({"setupWalk",
            Unit::Second,
            {0, 10},
            search(0.1, 2),
-           "From the arrival at the ball to the begin of a kick out of the walk"},
+           "Besides the way: until a kick out of the walk begins"},
           self.setupWalk);
+    visit({"kickPace", Unit::MetrePerSecond, {0.05, 5}, fixed, "Of the way to the ball for a kick"},
+          self.kickPace);
+    visit({"kickAround",
+           Unit::Second,
+           {0, 10},
+           search(0.2, 2),
+           "What a kick at right angles to the way to the ball, or to where the robot looks, takes longer"},
+          self.kickAround);
+    visit({"opponentReach",
+           Unit::Metre,
+           {0, 1},
+           fixed,
+           "An opponent whose torso is this near to the ball plays it"},
+          self.opponentReach);
     visit({"setupSpread", Unit::Second, {0.01, 10}, fixed, "Uncertainty of that"}, self.setupSpread);
     visit({"dribbleAhead", Unit::Metre, {0, 10}, search(0.5, 4), "How far a dribble carries the ball"},
           self.dribbleAhead);

@@ -20,6 +20,7 @@ struct GoalieParameters {
   double claimAhead = 1.0;
   double claimMargin = 0.5;
   double clearanceAside = 6.0;
+  double clearanceSure = 0.5;
   double diveBallSpeed = 0.5;
   double postMargin = 0.05;
   double inFrontOfLine = 0.2;
@@ -105,6 +106,12 @@ struct GoalieParameters {
            fixed,
            "Clears the ball to a point of the halfway line this far beside the middle"},
           self.clearanceAside);
+    visit({"clearanceSure",
+           Unit::Metre,
+           {0, 10},
+           fixed,
+           "A ball nearer to the middle goes to the side to which the goalie looks"},
+          self.clearanceSure);
     visit({"diveBallSpeed",
            Unit::MetrePerSecond,
            {0, 10},

@@ -54,6 +54,31 @@ struct PaceParameters {
   }
 };
 
+/// Who walks far from the ball looks along its way now and then: whom it does not see it runs over.
+struct GlanceParameters {
+  double every = 0.9;
+  double length = 0.35;
+  double farFromBall = 1.5;
+  double farToGo = 0.6;
+  double aside = 0.8;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"every", Unit::Second, {0.1, 60}, fixed, "From one glance along the way to the next"}, self.every);
+    visit({"length", Unit::Second, {0, 10}, fixed, "How long a glance lasts; 0: none"}, self.length);
+    visit({"farFromBall", Unit::Metre, {0, 50}, fixed, "Who is nearer to the ball watches it all the time"},
+          self.farFromBall);
+    visit({"farToGo", Unit::Metre, {0, 50}, fixed, "Shorter ways need no glance"}, self.farToGo);
+    visit({"aside",
+           Unit::Radian,
+           {0, 3.2},
+           fixed,
+           "With the way at a smaller angle from the ball both are seen at once"},
+          self.aside);
+  }
+};
+
 /// Looking for a lost ball (search_ball.cpp).
 struct SearchParameters {
   double headFirst = 2.0;
@@ -188,6 +213,7 @@ struct TeamParameters {
   SetPlayParameters setPlay;
   BeamParameters beam;
   SearchParameters ballSearch;
+  GlanceParameters glance;
   AgreementParameters agreement;
   RadioParameters radio;
   TouchParameters touch;
@@ -214,6 +240,7 @@ struct TeamParameters {
     visit.group("setPlay", self.setPlay);
     visit.group("beam", self.beam);
     visit.group("ballSearch", self.ballSearch);
+    visit.group("glance", self.glance);
     visit.group("agreement", self.agreement);
     visit.group("radio", self.radio);
     visit.group("touch", self.touch);

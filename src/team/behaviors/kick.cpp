@@ -8,11 +8,25 @@ namespace nonet::team {
 
 namespace {
 
+// Near enough to the goal, and nobody in the way.
+bool mayShoot(const Situation& s) {
+  const BallHandlingParameters& p = s.parameters.ball;
+  const Vector2 goal(0.5 * s.world.field.length, 0.0);
+  const Vector2 way = s.play->p_FTarget - s.ball();
+  const double toLine = goal.x() - s.ball().x();
+  if ((goal - s.ball()).norm() > p.shotDistance || s.play->p_FTarget.x() < goal.x()) return false;
+  if (s.nearestOpponent < p.shotOpponentDistance) return false;
+  const Vector2 crossing = s.ball() + toLine / std::max(way.x(), 1e-6) * way;
+  return std::abs(crossing.y()) < 0.5 * s.world.field.goalWidth &&
+         laneWidth(s.world, s.ball(), crossing, std::numeric_limits<double>::infinity()) > p.kickLane;
+}
+
 bool mayKick(const Situation& s, bool there) {
   const BallHandlingParameters& p = s.parameters.ball;
   const KickUse use = s.play->use;
   if (!p.kick || use == KickUse::Never) return false;
   if (s.world.ball.v_FB.head<2>().norm() > p.kickRolling) return false;
+  if (mayShoot(s)) return true;
   if (s.nearestOpponent < (there ? p.kickPress : 1.0) * p.kickOpponentDistance) return false;
   if (use == KickUse::Clear || there) return true;
   const Vector2 from = s.ball();
