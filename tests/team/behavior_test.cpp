@@ -65,11 +65,11 @@ TEST_F(Stage, HoldsAKickThatItAskedFor) {
   EXPECT_TRUE(std::holds_alternative<motion::KickTo>(cycle().motion));
 }
 
-// Another has the ball, and this one's place lies behind its back.
+// Another has the ball, and this one's place, behind that, lies in another direction than the ball.
 TEST_F(Stage, WhoWalksFarFromTheBallLooksAlongItsWayNowAndThen) {
   scene.putBall({-6.0, 0.0});
   Scene::put(scene.world.teammates[7], Pose2(-6.3, 0.0, 0.0));
-  scene.stand(Pose2(2.0, 0.0, kPi / 2.0));
+  scene.stand(Pose2(-8.5, 1.5, 0.0));
   int along = 0;
   int atBall = 0;
   for (int i = 0; i < 200; ++i) {
