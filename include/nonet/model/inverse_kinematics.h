@@ -30,9 +30,9 @@ using LegAngles = std::array<double, 6>;
 /// leg has a hip yaw-pitch joint of its own, unlike the real Nao, where both share one.
 Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles);
 
-/// Changes the angles so that the sole goes by `way` (torso frame, m) from where they have it, turned as before:
-/// for small ways, by damped Newton steps. Near a stretched leg it goes as far as it can; limits are not
-/// looked at.
+/// Changes the angles so that the sole goes by `way` (torso frame, m) from where they have it, turned as
+/// before: for small ways, by damped Newton steps. Near a stretched leg it goes as far as it can; limits are
+/// not looked at.
 void shiftSole(const RobotModel& model, Side side, const Vector3& way, LegAngles& angles);
 
 /// Writes leg angles into a joint array, and reads them back.
