@@ -35,12 +35,14 @@ struct ContactRows {
   PendingContact* pending = nullptr;
 };
 
+// A ball in the air is attached to nothing: ODE lets it be, whatever its countdown says.
 bool putIdleToSleep(Island& island) {
   bool awake = false;
+  const bool attached = !island.contacts.empty() || island.members.front()->nodes.size() > 1;
   for (Multibody* member : island.members) {
     for (BodyNode* node : member->nodes) {
       if (dBodyIsEnabled(node->body) == 0) continue;
-      if (node->stepsUntilSleep > 0) {
+      if (!attached || node->stepsUntilSleep > 0) {
         awake = true;
         continue;
       }
@@ -272,7 +274,7 @@ void integrate(Multibody& multibody, double seconds) {
     dBodySetQuaternion(body, turned);  // normalises
     dBodySetForce(body, 0.0, 0.0, 0.0);
     dBodySetTorque(body, 0.0, 0.0, 0.0);
-    if (dBodyIsEnabled(body) == 0) wakeBody(*multibody.nodes[i]);
+    dBodyEnable(body);
   }
 }
 
