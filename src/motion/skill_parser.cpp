@@ -183,7 +183,7 @@ class Parser : private SkillReader {
 
   KickValue duration() {
     const SkillToken& first = peek();
-    const KickValue result = kickValue(Unit::Second);
+    KickValue result = kickValue(Unit::Second);
     if (!(result.constant > 0.0)) failAt(first, "must be more than zero");
     return result;
   }

@@ -94,7 +94,7 @@ SkillValue SkillReader::primary() {
   const SkillToken& token = peek();
   if (accept("(")) {
     enter();
-    const SkillValue inner = anyValue();
+    SkillValue inner = anyValue();
     leave();
     expect(")");
     return inner;
