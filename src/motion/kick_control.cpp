@@ -89,10 +89,6 @@ bool KickControl::within(double share, const Way& way) const {
          std::abs(way.turn) < share * std::max(parameters_.angle, head.turn);
 }
 
-KickAim KickControl::aimOf(const KickTo& then, const WalkEngine& walk) const {
-  return {then.ball, wayTo(*chosen_, then).turn, walk.odometryStep().translation / kCycleTime};
-}
-
 KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, double quiet) {
   const KickParameters& p = parameters_;
   const KickOption* before = chosen_;
@@ -111,7 +107,7 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
   const bool quietly = walk.standing() && quiet >= p.quietTime;
   step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
   comesToStand_ = step.inPlace;
-  step.aim = aimOf(then, walk);
+  step.aim = {then.ball, way.turn, walk.odometryStep().translation / kCycleTime};
   step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
   step.stand = step.inPlace && !head.fromWalk;
   return step;

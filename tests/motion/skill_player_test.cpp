@@ -17,13 +17,14 @@ using Result = SkillPlayer::Result;
 
 class Player : public testing::Test {
  protected:
-  void load(const std::string& text, bool mirrored = false) {
+  void load(const std::string& text, bool mirrored = false,
+            const std::optional<KickAim>& aim = std::nullopt) {
     library_ = SkillLibrary(parseSkills(text, "test.skl"));
     player_ = std::make_unique<SkillPlayer>(model_, library_);
     world_.body.cycleTime = kCycleTime;
     targets_ = JointTargets{};
     targets_.stiffness.fill(1.0);
-    ASSERT_TRUE(player_->start("a", mirrored, targets_.angles));
+    ASSERT_TRUE(player_->start("a", mirrored, targets_.angles, aim));
   }
   Result step() { return player_->update(world_, targets_); }
   int cyclesToEnd(int most = 1000) {
@@ -68,14 +69,9 @@ TEST_F(Player, KicksSuitThemselvesToBallAimAndPace) {
       "skill a { kick { ball (0.2m, 5cm) distance 1m..2m contact 0.1s }"
       "move over 0.2s { left.knee -0.5rad - 1rad * ballAhead left.hipRoll 1rad * ballAside "
       "left.hipPitch 1rad * paceAhead right.hipRoll 1rad * turn + 1rad * paceAside } }";
-  library_ = SkillLibrary(parseSkills(text, "test.skl"));
-  world_.body.cycleTime = kCycleTime;
   for (const bool mirrored : {false, true}) {
-    player_ = std::make_unique<SkillPlayer>(model_, library_);
-    targets_.stiffness.fill(1.0);
     const double left = mirrored ? -1.0 : 1.0;
-    const KickAim aim{Vector2(0.23, left * 0.06), left * 0.2, Vector2(0.4, left * 0.1)};
-    ASSERT_TRUE(player_->start("a", mirrored, targets_.angles, aim));
+    load(text, mirrored, KickAim{Vector2(0.23, left * 0.06), left * 0.2, Vector2(0.4, left * 0.1)});
     cyclesToEnd();
     EXPECT_NEAR(angle(mirrored ? JointId::RLeg4 : JointId::LLeg4), -0.53, 1e-12);
     EXPECT_NEAR(angle(mirrored ? JointId::RLeg2 : JointId::LLeg2), left * 0.01, 1e-12);
@@ -90,18 +86,13 @@ TEST_F(Player, KicksShiftTheFootWithTheBall) {
       "skill a { kick { ball (0.2m, 5cm) distance 1m..2m contact 0.1s }"
       "move over 0.4s { left.hipPitch 0.6rad left.knee -1rad shift left foot by "
       "(1m * ballAhead, 0.5m * ballAside, 0.01m) } }";
-  library_ = SkillLibrary(parseSkills(text, "test.skl"));
-  world_.body.cycleTime = kCycleTime;
   for (const bool mirrored : {false, true}) {
     const model::Side side = mirrored ? model::Side::Right : model::Side::Left;
     const double left = mirrored ? -1.0 : 1.0;
     std::array<Vector3, 2> soles;
     for (const bool off : {false, true}) {
-      player_ = std::make_unique<SkillPlayer>(model_, library_);
-      targets_.angles.fill(0.0);
-      targets_.stiffness.fill(1.0);
       const Vector2 ball = off ? Vector2(0.23, left * 0.02) : Vector2(0.2, left * 0.05);
-      ASSERT_TRUE(player_->start("a", mirrored, targets_.angles, KickAim{ball, 0.0, Vector2::Zero()}));
+      load(text, mirrored, KickAim{ball, 0.0, Vector2::Zero()});
       cyclesToEnd();
       model::BodyPoses bodies;
       model::forwardKinematics(model_, targets_.angles, bodies);
@@ -219,9 +210,8 @@ TEST_F(Player, CurvesPassThroughTheirPointsRelativeToTheBall) {
   world_.body.torsoHeight = 0.35;
   load(
       "skill a { curve left foot over 0.2s from ball { point (-0.16m, 0, -5mm) point (-0.1m, 10mm, 20mm) } "
-      "}");
-  ASSERT_TRUE(
-      player_->start("a", false, targets_.angles, KickAim{Vector2(0.15, 0.055), 0.0, Vector2::Zero()}));
+      "}",
+      false, KickAim{Vector2(0.15, 0.055), 0.0, Vector2::Zero()});
   model::BodyPoses bodies;
   for (int i = 0; i < 5; ++i) step();
   model::forwardKinematics(model_, targets_.angles, bodies);

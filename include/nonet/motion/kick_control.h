@@ -45,7 +45,6 @@ class KickControl {
   const KickOption* choose(const KickTo& request) const;
   KickTo after(double seconds, const KickTo& request, const WalkEngine& walk) const;
   WalkVelocity lastSteps(const Way& way) const;
-  KickAim aimOf(const KickTo& then, const WalkEngine& walk) const;
   bool within(double share, const Way& way) const;
 
   const KickCatalogue* catalogue_;
