@@ -1,6 +1,7 @@
 #include "nonet/motion/skill_player.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
