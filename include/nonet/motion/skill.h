@@ -35,14 +35,9 @@ struct KickAim {
   Vector2 pace = Vector2::Zero();  // of the steps out of which it begins, robot axes, m/s
 };
 
-/// What a kick can suit itself to when it begins, as the left foot does it.
-enum class KickInput : std::uint8_t {
-  BallAhead,  // of its place (KickHead::p_RBall) the ball is believed to lie, m
-  BallAside,  // to the left of it, m
-  Turn,       // to the left of the kick's own direction the ball should go, rad
-  PaceAhead,  // of the steps out of which it begins, m/s
-  PaceAside,  // to the left, m/s
-};
+/// What a kick can suit itself to when it begins, as the left foot does it: how far ahead of its place
+/// (KickHead::p_RBall) and to the left of it the ball is believed to lie, m; how far to the left of the
+/// kick's own direction it should go, rad; the pace of the steps, ahead and to the left, m/s.
 constexpr int kKickInputs = 5;
 using KickInputs = Eigen::Matrix<double, kKickInputs, 1>;
 
