@@ -90,13 +90,13 @@ isOurs() {
 # launch NAME ARGUMENT...: one agent in the background, its words in $logs/NAME.log.
 started=()
 launch() {
-  local name=$1 pid
+  local name=$1 pid state began=
   shift
   mkdir -p "$logs"
   setsid "$binary" play --host "$host" --port "$port" --team "$team" "$@" >"$logs/$name.log" 2>&1 </dev/null &
   pid=$!
-  local entry
-  entry="$pid $(statOf "$pid" | awk '{ print $2 }') $name"
+  read -r state began <<<"$(statOf "$pid")" || true  # nothing if it has died already
+  local entry="$pid ${began:-0} $name"
   echo "$entry" >>"$pids"
   started+=("$entry")
 }
@@ -107,7 +107,7 @@ awaitAgents() {
   sleep "${NONET_WATCH:-1}"
   for entry in "${started[@]}"; do
     read -r pid time name <<<"$entry"
-    if ! isOurs "$pid" "${time:-0}"; then
+    if ! isOurs "$pid" "$time"; then
       dead=$((dead + 1))
       echo "$script: $name has ended: $(grep -v "^Run with --help" "$logs/$name.log" 2>/dev/null | tail -n 1)" >&2
     fi

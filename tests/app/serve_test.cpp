@@ -312,10 +312,18 @@ TEST_F(Scripts, SayWhoDiedAtOnce) {
   Program program(command("start.sh"), {"127.0.0.1", "-n", "2", "--", "--params", "/nosuch.toml"},
                   folder.file("died.txt"));
   EXPECT_EQ(program.wait(), 1) << program.output();
-  unsetenv("NONET_WATCH");
   EXPECT_NE(program.output().find("2 of 2 agents did not start"), std::string::npos) << program.output();
   EXPECT_NE(program.output().find("nosuch.toml"), std::string::npos) << "the reason";
   EXPECT_NE(run("kill.sh", {}).find("stopped 0 agents"), std::string::npos) << "the dead do not count";
+
+  // Dead before the script asks for the time of its start.
+  setenv("NONET_WATCH", "0", 1);
+  setenv("NONET_BINARY", "/bin/false", 1);
+  for (int i = 0; i < 5; ++i) {
+    Program dies(command("start.sh"), {"127.0.0.1", "-n", "1"}, folder.file("dead.txt"));
+    EXPECT_EQ(dies.wait(), 1) << dies.output();
+  }
+  unsetenv("NONET_WATCH");
 }
 
 TEST_F(Scripts, StopOneTeam) {

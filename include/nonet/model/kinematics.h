@@ -12,6 +12,13 @@ namespace nonet::model {
 /// X_RB of every body B, indexed by BodyId; bodies that a type lacks are the identity.
 using BodyPoses = std::array<Pose3, kBodyCount>;
 
+/// All of them the identity: Eigen leaves poses that nobody sets uninitialised.
+inline BodyPoses identityPoses() {
+  BodyPoses poses;
+  poses.fill(Pose3::Identity());
+  return poses;
+}
+
 void forwardKinematics(const RobotModel& model, const JointArray& angles, BodyPoses& poses);
 
 /// p_RCom, m.

@@ -18,11 +18,11 @@ struct BodyState {
   double time = 0.0;           // server time of the message, s
   double cycleTime = 0.0;      // s since the previous message (a multiple of 0.02 when messages were lost)
   model::JointArray joints{};  // measured, rad
-  model::JointArray jointSpeeds{};          // finite difference over the last cycle, rad/s
-  model::BodyPoses bodies{};                // X_RB from the measured joints
-  Vector3 p_RCom = Vector3::Zero();         // centre of mass, m
-  Vector3 gyro = Vector3::Zero();           // rad/s, robot axes
-  Vector3 accelerometer = Vector3::Zero();  // m/s^2, robot axes, one cycle older
+  model::JointArray jointSpeeds{};                   // finite difference over the last cycle, rad/s
+  model::BodyPoses bodies = model::identityPoses();  // X_RB from the measured joints
+  Vector3 p_RCom = Vector3::Zero();                  // centre of mass, m
+  Vector3 gyro = Vector3::Zero();                    // rad/s, robot axes
+  Vector3 accelerometer = Vector3::Zero();           // m/s^2, robot axes, one cycle older
   Matrix3 R_GR =
       Matrix3::Identity();  // torso orientation in a level frame G whose heading drifts (gyro integrated)
   double roll = 0.0;        // rad, positive = leaning to the right
