@@ -54,8 +54,7 @@ double first(double ours, double theirs, double spread) {
 // slow. The goalie stays at home.
 double oursAt(const Situation& s, const Vector2& p_F) {
   const ChoiceParameters& p = s.parameters.choice;
-  const std::span<const world::PlayerState> field(s.world.teammates.begin() + 2, s.world.teammates.end());
-  const double own = std::max(soonest(field, p_F, p.ownPace, s.parameters.pace.risingTime), kSlowRoll);
+  const double own = std::max(teammatesTime(s, p_F), kSlowRoll);
   const double theirs = std::max(opponentsTime(s, p_F), kSlowRoll);
   return first(own, theirs, p.arrivalSpread);
 }
@@ -150,6 +149,11 @@ std::optional<double> presentKick(const Situation& s) {
 
 double opponentsTime(const Situation& s, const Vector2& p_F) {
   return soonest(s.world.opponents, p_F, s.parameters.choice.opponentPace, s.parameters.pace.risingTime);
+}
+
+double teammatesTime(const Situation& s, const Vector2& p_F) {
+  const std::span<const world::PlayerState> field(s.world.teammates.begin() + 2, s.world.teammates.end());
+  return soonest(field, p_F, s.parameters.choice.ownPace, s.parameters.pace.risingTime);
 }
 
 double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& p) {

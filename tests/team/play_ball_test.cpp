@@ -109,6 +109,23 @@ TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
   EXPECT_FALSE(kicks(10.0, {13.0, 0.1}, 7.0)) << "somebody is in the way";
 }
 
+// Nothing but the place where a kick of 0.9 x 7 m ends is different.
+TEST(PlayBall, KicksOnlyToWhereOneOfUsIsFirst) {
+  const auto kicks = [](double ballX, const Vector2& opponent, double lead) {
+    Scene scene;
+    scene.parameters.ball.kickLead = lead;
+    scene.stand(Pose2(ballX - 0.25, 0.0, 0.0));
+    scene.putBall({ballX, 0.0});
+    Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
+    return std::holds_alternative<motion::KickTo>(scene.handleBall({15.2, 0.0}, KickUse::IfFree));
+  };
+  EXPECT_FALSE(kicks(-5.0, {1.3, 1.0}, 0.0)) << "it waits there";
+  EXPECT_TRUE(kicks(-5.0, {1.3, 1.0}, -100.0)) << "nobody asks";
+  EXPECT_TRUE(kicks(-5.0, {1.3, 9.0}, 0.0)) << "9 m at 0.6 m/s are longer than 6.5 m at 0.9";
+  EXPECT_FALSE(kicks(-5.0, {1.3, 9.0}, 10.0)) << "but not by so much";
+  EXPECT_TRUE(kicks(10.0, {14.5, 1.5}, 0.0)) << "a shot ends in the goal";
+}
+
 TEST(BallTarget, LiesInTheGoalOrBringsTheBallBackToTheMiddle) {
   world::WorldState world;
   for (double x = -15; x <= 15; x += 0.5) {

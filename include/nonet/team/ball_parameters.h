@@ -85,25 +85,25 @@ struct BallTargetParameters {
     visit({"barReach",
            Unit::Metre,
            {0, 10},
-           fixed,
+           search(0.8, 2.5),
            "Opponents bar directions of the ball up to this distance from it"},
           self.barReach);
     visit({"barWidth",
            Unit::Radian,
            {0.01, 3.2},
-           fixed,
+           search(0.3, 1.0),
            "An opponent bars this to either side in full, and fades over as much again"},
           self.barWidth);
     visit({"barCost",
            Unit::None,
            {0, 10},
-           fixed,
+           search(0, 1.6),
            "Cost of a direction that is barred in full; one that points away from the target costs 1"},
           self.barCost);
     visit({"facingCost",
            Unit::None,
            {0, 5},
-           fixed,
+           search(0, 0.5),
            "Cost of a direction per squared radian that the robot must turn for it"},
           self.facingCost);
     visit({"touchLineMargin",
@@ -112,14 +112,15 @@ struct BallTargetParameters {
            fixed,
            "A direction that leads within a metre nearer to the touch line is out"},
           self.touchLineMargin);
-    visit({"around", Unit::Metre, {0.1, 10}, fixed, "Around an opponent: the ball is played this far"},
-          self.around);
+    visit(
+        {"around", Unit::Metre, {0.1, 10}, search(0.8, 3), "Around an opponent: the ball is played this far"},
+        self.around);
   }
 };
 
 /// How the player on the ball goes behind it, dribbles and kicks (behaviors/).
 struct BallHandlingParameters {
-  double behindBall = 0.25;
+  double behindBall = 0.18;
   double circleRadius = 0.45;
   double dribbleThrough = 0.6;
   double alignedAngle = 0.45;
@@ -143,6 +144,7 @@ struct BallHandlingParameters {
   double waitRoom = 0.25;
   double awaitMargin = 1.5;
   double awaitAside = 0.3;
+  double kickLead = 0.0;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -222,7 +224,7 @@ struct BallHandlingParameters {
     visit({"kickRolling",
            Unit::MetrePerSecond,
            {0, 5},
-           fixed,
+           search(0.2, 0.8),
            "Kick: a faster ball is not where it was when the foot comes"},
           self.kickRolling);
     visit({"kickBehind", Unit::Metre, {0, 1}, fixed, "Kick: the last steps begin this far behind the ball"},
@@ -233,12 +235,12 @@ struct BallHandlingParameters {
            fixed,
            "Kick: the last steps begin where the ball lies less far aside than ahead, and this much more"},
           self.kickBesides);
-    visit({"alignedBehind", Unit::Metre, {0, 1}, fixed, "Dribble when this far behind the ball"},
+    visit({"alignedBehind", Unit::Metre, {0, 1}, search(0, 0.12), "Dribble when this far behind the ball"},
           self.alignedBehind);
     visit({"circleBehind",
            Unit::None,
            {0, 1},
-           fixed,
+           search(0.2, 0.9),
            "Walk around the ball until this share of behindBall behind it"},
           self.circleBehind);
     visit({"faceAway",
@@ -255,6 +257,12 @@ struct BallHandlingParameters {
           self.awaitMargin);
     visit({"awaitAside", Unit::Metre, {0, 2}, fixed, "and who waits for it keeps this far from its way"},
           self.awaitAside);
+    visit({"kickLead",
+           Unit::Second,
+           {-100, 100},
+           search(-3, 3),
+           "Kick: one of us must be sooner by this where the ball comes to rest; a shot need not"},
+          self.kickLead);
     visit(
         {"waitRoom", Unit::Metre, {0, 2}, fixed, "Set piece: room that the waiting taker leaves to the ball"},
         self.waitRoom);

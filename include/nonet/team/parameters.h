@@ -14,10 +14,10 @@ namespace nonet::team {
 
 /// How fast players and ball are, for comparing the ways to the ball (play_time.h).
 struct PaceParameters {
-  double walkSpeed = 0.7;
-  double turnSpeed = 1.5;
-  double risingTime = 3.0;
-  double wayAround = 0.8;
+  double walkSpeed = 1.1;
+  double turnSpeed = 3.0;
+  double risingTime = 2.0;
+  double wayAround = 0.5;
   double longestRoll = 6.0;
   double carryDistance = 0.8;
   double carrySpeed = 0.15;
@@ -222,6 +222,7 @@ struct TeamParameters {
   double avoidDistance = 0.7;
   double onBallRoom = 1.2;
   double keepBallTime = 1.0;
+  double contested = 0.8;
   double clearOfOpponentKick = 2.3;
   double waitForReceiver = 8.0;
 
@@ -256,6 +257,12 @@ struct TeamParameters {
            search(0, 3),
            "Another player must be sooner at the ball by this to take it over"},
           self.keepBallTime);
+    visit({"contested",
+           Unit::Metre,
+           {0, 5},
+           search(0.4, 2),
+           "The ball is contested while an opponent on its feet is this near to it"},
+          self.contested);
     visit({"clearOfOpponentKick",
            Unit::Metre,
            {0, 10},

@@ -28,6 +28,7 @@ std::span<const Task* const> registeredTasks() {
       &approachTask(),
       &dribbleTask(),
       &receiveTask(),
+      &contestTask(),
       &quadraticTask(),
   };
   return tasks;

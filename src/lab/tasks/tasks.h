@@ -29,6 +29,7 @@ const Task& diveTask();
 const Task& approachTask();
 const Task& dribbleTask();
 const Task& receiveTask();
+const Task& contestTask();
 const Task& blockTask();
 const Task& saveTask();
 const Task& quadraticTask();

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 
 namespace nonet::team {
@@ -21,6 +22,23 @@ bool mayShoot(const Situation& s) {
          laneWidth(s.world, s.ball(), crossing, std::numeric_limits<double>::infinity()) > p.kickLane;
 }
 
+// One of us is first where the longest kick towards the target comes to rest. A ball that crosses the line
+// between the posts need not be caught.
+bool staysOurs(const Situation& s) {
+  const BallHandlingParameters& p = s.parameters.ball;
+  double longest = 0.0;
+  for (const motion::KickOption& kick : s.motion.kicks) longest = std::max(longest, kick.head.longest);
+  const Vector2 ball = s.ball();
+  const Vector2 way = s.play->p_FTarget - ball;
+  const Vector2 end = ball + s.parameters.choice.length * longest * way.normalized();
+  const double goalX = 0.5 * s.world.field.length;
+  if (end.x() > goalX) {
+    const double crossing = ball.y() + (goalX - ball.x()) / std::max(way.x(), 1e-6) * way.y();
+    if (std::abs(crossing) < 0.5 * s.world.field.goalWidth) return true;
+  }
+  return teammatesTime(s, end) + p.kickLead < opponentsTime(s, end);
+}
+
 bool mayKick(const Situation& s, bool there) {
   const BallHandlingParameters& p = s.parameters.ball;
   const KickUse use = s.play->use;
@@ -29,6 +47,7 @@ bool mayKick(const Situation& s, bool there) {
   if (mayShoot(s)) return true;
   if (s.nearestOpponent < (there ? p.kickPress : 1.0) * p.kickOpponentDistance) return false;
   if (use == KickUse::Clear || there) return true;
+  if (!staysOurs(s)) return false;
   const Vector2 from = s.ball();
   const Vector2 way = s.play->p_FTarget - from;
   const Vector2 end = from + std::min(1.0, p.kickLaneLength / std::max(way.norm(), 1e-6)) * way;

@@ -1,0 +1,50 @@
+// contest: duels for a ball that lies between two robots (lab/trial/ball_trial.h), against the same robot as
+// the data folder has it. A duel is worth 1 if the ball comes 2 m towards the other goal first, 0 if towards
+// the own one, and a fall costs 0.3: whoever lies is missed in the next one.
+#include "nonet/agent/agent_setup.h"
+#include "nonet/lab/trial/ball_trial.h"
+#include "nonet/math/random.h"
+
+#include "lab/tasks/tasks.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr int kDuels = 10;
+constexpr double kFall = 0.3;
+
+class ContestTask final : public Task {
+ public:
+  std::string_view name() const override { return "contest"; }
+  std::string_view description() const override {
+    return "duels for a ball between two robots, against the robot of the data folder";
+  }
+  std::vector<std::string> searchedKeys() const override { return {"team.ball.", "team.target."}; }
+
+  TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
+                      const TaskSettings& settings) const override {
+    const agent::AgentConfig agent = agentOf(parameters, settings);
+    agent::AgentChoice choice;
+    choice.robotType = settings.robotType;
+    const agent::AgentConfig opponent = agent::makeAgentConfig(choice, settings.dataFolder);
+    const sim::Settings server = serverOf(settings);
+    Random random = Random(seed).fork(9);
+    double won = 0.0, falls = 0.0;
+    for (int i = 0; i < kDuels; ++i) {
+      const Duel duel = duelOnce(agent, opponent, server, random.next());
+      won += duel.won / kDuels;
+      falls += duel.fell ? 1.0 : 0.0;
+    }
+    return {.fitness = won - kFall * falls / kDuels, .measures = {{"won", won}, {"falls", falls}}};
+  }
+};
+
+}  // namespace
+
+const Task& contestTask() {
+  static const ContestTask task;
+  return task;
+}
+
+}  // namespace nonet::lab
