@@ -67,7 +67,9 @@ void RoleVoting::vote(const Situation& situation, int banned) {
     const bool silent = world.time - report.time < parameters.voteAge && !report.message.timeToBall;
     if (silent) squad.times[i] += parameters.silentPenalty;
     if (unum == banned) squad.times[i] += parameters.bannedPenalty;
-    if (unum == onBall_) squad.times[i] -= situation.parameters.keepBallTime;
+    // Before a kick-off players come in one by one, and nobody is on its way yet.
+    if (unum == onBall_ && !situation.waitsForKickOff())
+      squad.times[i] -= situation.parameters.keepBallTime;
   }
   if (squad.count == 0) return;
 

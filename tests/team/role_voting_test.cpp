@@ -67,12 +67,14 @@ class Team {
 
   Vector2 ball = Vector2(1.0, 1.0);
   int banned = 0;
+  world::Phase phase = world::Phase::PlayOn;
   VariantParameters& variant() { return parameters_.variant; }
 
  private:
   void look(std::size_t i, world::WorldState& world) {
     world.time = time_;
     world.game.unum = static_cast<int>(i) + kFirst;
+    world.game.phase = phase;
     world.self.localized = true;
     world.self.X_FR = Pose2(places_[i], 0.0);
     world.ball.known = true;
@@ -147,6 +149,19 @@ TEST(RoleVoting, KeepsThePlayerOnTheBallAgainstSmallDifferences) {
   team.place(first) = team.ball + Vector2(-4.0, 0.0);
   team.run(1.5);
   EXPECT_EQ(team.agreedOnBall(), other);
+}
+
+// Seen on the real server: the receiver of the kick-off came in first, kept the ball, and walked around it.
+TEST(RoleVoting, BeforeAKickOffWhoComesInFirstKeepsNothing) {
+  Team team(3);
+  team.phase = world::Phase::BeforeKickOff;
+  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.place(6) = team.ball + Vector2(-1.3, 0.0);
+  team.run(1.5);
+  EXPECT_EQ(team.agreedOnBall(), 6);
+  team.place(9) = team.ball + Vector2(-0.5, 0.0);
+  team.run(1.5);
+  EXPECT_EQ(team.agreedOnBall(), 9);
 }
 
 TEST(RoleVoting, TheBannedPlayerHandsOver) {
