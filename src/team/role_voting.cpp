@@ -68,8 +68,7 @@ void RoleVoting::vote(const Situation& situation, int banned) {
     if (silent) squad.times[i] += parameters.silentPenalty;
     if (unum == banned) squad.times[i] += parameters.bannedPenalty;
     // Before a kick-off players come in one by one, and nobody is on its way yet.
-    if (unum == onBall_ && !situation.waitsForKickOff())
-      squad.times[i] -= situation.parameters.keepBallTime;
+    if (unum == onBall_ && !situation.waitsForKickOff()) squad.times[i] -= situation.parameters.keepBallTime;
   }
   if (squad.count == 0) return;
 

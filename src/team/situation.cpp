@@ -25,7 +25,6 @@ double nearestOpponent(const world::WorldState& world) {
 
 Formation placesFor(const world::WorldState& world, const TeamParameters& parameters) {
   FormationParameters formation = parameters.formation;
-  if (nearestOpponent(world) < parameters.contested) formation.stopperBehind = formation.stopperPress;
   if (world::isOpponentSetPiece(world.game.phase)) {
     // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
     formation.stopperBehind =

@@ -26,21 +26,6 @@ TEST(Situation, KnowsWhoIsHowFarFromTheBall) {
   EXPECT_NEAR(s.timeToBall[5], 1.0 / scene.parameters.pace.walkSpeed, 0.05);
 }
 
-TEST(Situation, TheStopperComesNearerToAContestedBall) {
-  Scene scene;
-  scene.putBall({-2.0, 0.0});
-  scene.parameters.formation.stopperPress = 1.2;
-  const auto behind = [&] {
-    const Situation s = scene.situation(Role::Stopper);
-    return (s.ball() - s.formation.positions[static_cast<std::size_t>(Role::Stopper)]).norm();
-  };
-  EXPECT_NEAR(behind(), scene.parameters.formation.stopperBehind, 1e-9);
-  Scene::put(scene.world.opponents[4], Pose2(-1.5, 0.0, 0.0));
-  EXPECT_NEAR(behind(), 1.2, 1e-9);
-  scene.world.opponents[4].fallen = true;
-  EXPECT_NEAR(behind(), scene.parameters.formation.stopperBehind, 1e-9) << "who lies takes no ball";
-}
-
 // The geometry of the turn against the angle between two vectors, in fuzzed scenes.
 TEST(Situation, TheOwnTurnDescribesTheBallAsTheRobotSeesIt) {
   Random random(8);

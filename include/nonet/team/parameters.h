@@ -222,7 +222,6 @@ struct TeamParameters {
   double avoidDistance = 0.7;
   double onBallRoom = 1.2;
   double keepBallTime = 1.0;
-  double contested = 0.8;
   double clearOfOpponentKick = 2.3;
   double waitForReceiver = 8.0;
 
@@ -257,12 +256,6 @@ struct TeamParameters {
            search(0, 3),
            "Another player must be sooner at the ball by this to take it over"},
           self.keepBallTime);
-    visit({"contested",
-           Unit::Metre,
-           {0, 5},
-           search(0.4, 2),
-           "The ball is contested while an opponent on its feet is this near to it"},
-          self.contested);
     visit({"clearOfOpponentKick",
            Unit::Metre,
            {0, 10},

@@ -14,7 +14,6 @@ struct FormationParameters {
   double wingBehind = 2.5;
   double wingAside = 3.0;
   double stopperBehind = 2.5;
-  double stopperPress = 2.5;
   double supporterBehind = 4.0;
   double firstBackFromGoal = 3.0;
   double secondBackFromGoal = 5.5;
@@ -35,8 +34,6 @@ struct FormationParameters {
           self.wingAside);
     visit({"stopperBehind", Unit::Metre, {0, 10}, search(0.8, 4), "Stopper: behind the ball"},
           self.stopperBehind);
-    visit({"stopperPress", Unit::Metre, {0, 10}, search(0.6, 3), "The same while the ball is contested"},
-          self.stopperPress);
     visit({"supporterBehind", Unit::Metre, {0, 10}, search(2, 8), "Supporter: behind the ball"},
           self.supporterBehind);
     visit({"firstBackFromGoal",
