@@ -56,11 +56,11 @@ struct PaceParameters {
 
 /// Who walks far from the ball looks along its way now and then: whom it does not see it runs over.
 struct GlanceParameters {
-  double every = 0.9;
+  double every = 0.7;
   double length = 0.35;
   double farFromBall = 1.5;
   double farToGo = 0.6;
-  double aside = 0.8;
+  double aside = 0.25;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
