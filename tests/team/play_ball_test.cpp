@@ -92,15 +92,22 @@ TEST(PlayBall, ComesToItsKickAlsoWhenSmallStepsLeadElsewhere) {
   }
 }
 
+// In its place behind a ball on the middle line, with one opponent on the field: does it ask for a kick?
+bool kicksAtTheGoal(const BallHandlingParameters& parameters, double ballX, const Vector2& opponent) {
+  Scene scene;
+  scene.parameters.ball = parameters;
+  scene.stand(Pose2(ballX - 0.25, 0.0, 0.0));
+  scene.putBall({ballX, 0.0});
+  Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
+  return std::holds_alternative<motion::KickTo>(scene.handleBall({15.2, 0.0}, KickUse::IfFree));
+}
+
 // An opponent beside the ball forbids a kick, but not a shot with a free way.
 TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
   const auto kicks = [](double ballX, const Vector2& opponent, double shotDistance) {
-    Scene scene;
-    scene.parameters.ball.shotDistance = shotDistance;
-    scene.stand(Pose2(ballX - 0.25, 0.0, 0.0));
-    scene.putBall({ballX, 0.0});
-    Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
-    return std::holds_alternative<motion::KickTo>(scene.handleBall({15.2, 0.0}, KickUse::IfFree));
+    BallHandlingParameters parameters;
+    parameters.shotDistance = shotDistance;
+    return kicksAtTheGoal(parameters, ballX, opponent);
   };
   EXPECT_FALSE(kicks(10.0, {10.0, 0.8}, 0.0));
   EXPECT_TRUE(kicks(10.0, {10.0, 0.8}, 7.0));
@@ -112,12 +119,9 @@ TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
 // Nothing but the place where a kick of 0.9 x 7 m ends is different.
 TEST(PlayBall, KicksOnlyToWhereOneOfUsIsFirst) {
   const auto kicks = [](double ballX, const Vector2& opponent, double lead) {
-    Scene scene;
-    scene.parameters.ball.kickLead = lead;
-    scene.stand(Pose2(ballX - 0.25, 0.0, 0.0));
-    scene.putBall({ballX, 0.0});
-    Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
-    return std::holds_alternative<motion::KickTo>(scene.handleBall({15.2, 0.0}, KickUse::IfFree));
+    BallHandlingParameters parameters;
+    parameters.kickLead = lead;
+    return kicksAtTheGoal(parameters, ballX, opponent);
   };
   EXPECT_FALSE(kicks(-5.0, {1.3, 1.0}, 0.0)) << "it waits there";
   EXPECT_TRUE(kicks(-5.0, {1.3, 1.0}, -100.0)) << "nobody asks";

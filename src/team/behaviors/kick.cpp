@@ -9,16 +9,25 @@ namespace nonet::team {
 
 namespace {
 
+// Where the ball's way to its target meets the goal line, own field frame.
+Vector2 goalCrossing(const Situation& s) {
+  const Vector2 way = s.play->p_FTarget - s.ball();
+  const double toLine = 0.5 * s.world.field.length - s.ball().x();
+  return s.ball() + toLine / std::max(way.x(), 1e-6) * way;
+}
+
+bool betweenPosts(const Situation& s, const Vector2& crossing) {
+  return std::abs(crossing.y()) < 0.5 * s.world.field.goalWidth;
+}
+
 // Near enough to the goal, and nobody in the way.
 bool mayShoot(const Situation& s) {
   const BallHandlingParameters& p = s.parameters.ball;
   const Vector2 goal(0.5 * s.world.field.length, 0.0);
-  const Vector2 way = s.play->p_FTarget - s.ball();
-  const double toLine = goal.x() - s.ball().x();
   if ((goal - s.ball()).norm() > p.shotDistance || s.play->p_FTarget.x() < goal.x()) return false;
   if (s.nearestOpponent < p.shotOpponentDistance) return false;
-  const Vector2 crossing = s.ball() + toLine / std::max(way.x(), 1e-6) * way;
-  return std::abs(crossing.y()) < 0.5 * s.world.field.goalWidth &&
+  const Vector2 crossing = goalCrossing(s);
+  return betweenPosts(s, crossing) &&
          laneWidth(s.world, s.ball(), crossing, std::numeric_limits<double>::infinity()) > p.kickLane;
 }
 
@@ -31,11 +40,7 @@ bool staysOurs(const Situation& s) {
   const Vector2 ball = s.ball();
   const Vector2 way = s.play->p_FTarget - ball;
   const Vector2 end = ball + s.parameters.choice.length * longest * way.normalized();
-  const double goalX = 0.5 * s.world.field.length;
-  if (end.x() > goalX) {
-    const double crossing = ball.y() + (goalX - ball.x()) / std::max(way.x(), 1e-6) * way.y();
-    if (std::abs(crossing) < 0.5 * s.world.field.goalWidth) return true;
-  }
+  if (end.x() > 0.5 * s.world.field.length && betweenPosts(s, goalCrossing(s))) return true;
   return teammatesTime(s, end) + p.kickLead < opponentsTime(s, end);
 }
 
