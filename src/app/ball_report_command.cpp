@@ -32,8 +32,11 @@ int run(const BallReportArguments& arguments) {
   settings.agent = agent::makeAgentConfig(arguments.choice, data);
   agent::AgentChoice opponent;
   opponent.robotType = arguments.choice.robotType;
-  settings.opponent = agent::makeAgentConfig(
-      opponent, arguments.opponentData.empty() ? data : dataFolder(arguments.opponentData));
+  const std::string opponentData = arguments.opponentData.empty() ? data : dataFolder(arguments.opponentData);
+  settings.opponent = agent::makeAgentConfig(opponent, opponentData);
+  agent::AgentChoice goalie;
+  goalie.robotType = 0;
+  settings.goalie = agent::makeAgentConfig(goalie, opponentData);
   settings.progress = [&](const std::string& skill) {
     fmt::print(stderr, "{}: {} trials\n", skill, settings.trials);
   };
@@ -51,14 +54,15 @@ int run(const BallReportArguments& arguments) {
 void addBallReportCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand(
       "ball-report",
-      "Measure seeded ball skills: approach, dribble, slalom, drive, duel, receive, run, stop");
+      "Measure seeded ball skills: approach, dribble, slalom, drive, duel, attack, receive, run, stop");
   const auto arguments = std::make_shared<BallReportArguments>();
   lab::BallReportSettings& settings = arguments->settings;
   command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
   command->add_option("--skill", settings.skill, "One of them, or all");
   command->add_option("--data", arguments->data, "Folder with params/ and skills/");
-  command->add_option("--opponent-data", arguments->opponentData,
-                      "The same for the opponent in the duel; without it: that of --data, without --set");
+  command->add_option(
+      "--opponent-data", arguments->opponentData,
+      "The same for the opponents in duel and attack; without it: that of --data, without --set");
   command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
       ->check(CLI::ExistingFile);
   command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");

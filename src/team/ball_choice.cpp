@@ -89,21 +89,6 @@ Block blockOf(const Situation& s, const Vector2& way) {
   return block;
 }
 
-// The probability that a kick in this direction crosses the line between the posts.
-double betweenPosts(const Situation& s, double direction) {
-  const auto& field = s.world.field;
-  const ChoiceParameters& p = s.parameters.choice;
-  const Vector2 ball = s.ball();
-  const double ahead = 0.5 * field.length - ball.x();
-  if (ahead <= 0.0) return 0.0;
-  const double left = std::atan2(0.5 * field.goalWidth - ball.y(), ahead);
-  const double right = std::atan2(-0.5 * field.goalWidth - ball.y(), ahead);
-  const auto below = [&](double angle) {
-    return 0.5 * std::erfc((direction - angle) / (std::sqrt(2.0) * p.spread));
-  };
-  return std::max(0.0, below(left) - below(right));
-}
-
 // Of ending at p_F, which may be out of the field.
 double endValue(const Situation& s, const Vector2& p_F) {
   const auto& field = s.world.field;
@@ -166,7 +151,7 @@ double kickValue(const Situation& s, double direction, double length) {
   const double toLine =
       (0.5 * s.world.field.length + kGoalLineMargin - s.ball().x()) / std::max(std::cos(direction), 1e-3);
   const bool reaches = std::cos(direction) > 0.1 && toLine < p.shotLength / p.length * length;
-  const double scores = reaches ? betweenPosts(s, direction) : 0.0;
+  const double scores = reaches ? hitsGoal(s.world, direction, p.spread) : 0.0;
   const double flown = scores > 0.0 ? std::min(toLine, length) : length;
   const Block block = blockOf(s, flown * unitVector(direction));
   const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unitVector(direction));

@@ -36,7 +36,8 @@ Vector2 openGoal(const world::WorldState& world, const BallTargetParameters& p, 
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goalX + p.behindLine, side * i / kPlacesAside);
     const double turn = std::abs(angleDifference(directionOf(place - ball), world.self.X_FR.rotation));
-    const double score = laneWidth(world, ball, place, p.laneWidth) - p.openTurnCost * turn -
+    const double hits = hitsGoal(world, directionOf(place - ball), p.aimSpread);
+    const double score = hits * laneWidth(world, ball, place, p.laneWidth) - p.openTurnCost * turn -
                          p.openMiddle * std::abs(place.y());
     if (record != nullptr) record->add(place, score);
     if (score <= bestScore) continue;
@@ -56,7 +57,7 @@ Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParamete
   for (int i = -kTurns; i <= kTurns; ++i) {
     const double turn = i * kTurnStep;
     const Vector2 end = ball + unitVector(straight + turn);
-    const bool out = std::abs(end.y()) > 0.5 * world.field.width - p.touchLineMargin;
+    const bool out = rollsOut(world, p, straight + turn);
     const double facing = angleDifference(straight + turn, world.self.X_FR.rotation);
     const double score = std::cos(turn) - p.barCost * barred(world, p, straight + turn) -
                          p.facingCost * facing * facing - (out ? 1.0 : 0.0);
@@ -69,6 +70,32 @@ Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParamete
 }
 
 }  // namespace
+
+double hitsGoal(const world::WorldState& world, double direction, double spread) {
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const double ahead = 0.5 * world.field.length - ball.x();
+  if (ahead <= 0.0) return 0.0;
+  const double left = std::atan2(0.5 * world.field.goalWidth - ball.y(), ahead);
+  const double right = std::atan2(-0.5 * world.field.goalWidth - ball.y(), ahead);
+  const auto below = [&](double angle) {
+    return 0.5 * std::erfc((direction - angle) / (std::sqrt(2.0) * spread));
+  };
+  return std::max(0.0, below(left) - below(right));
+}
+
+bool rollsOut(const world::WorldState& world, const BallTargetParameters& p, double direction) {
+  if (p.rollsOn == 0.0) return false;
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const Vector2 way = p.rollsOn * unitVector(direction);
+  const Vector2 end = ball + way;
+  const double goalLine = 0.5 * world.field.length;
+  if (end.x() < -goalLine) return true;
+  if (end.x() > goalLine) {
+    const double crossing = ball.y() + (goalLine - ball.x()) / way.x() * way.y();
+    return std::abs(crossing) > 0.5 * world.field.goalWidth - p.postMargin;
+  }
+  return std::abs(end.y()) > 0.5 * world.field.width - p.touchLineMargin;
+}
 
 double barred(const world::WorldState& world, const BallTargetParameters& p, double direction) {
   double most = 0.0;

@@ -4,6 +4,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/team/charging.h"
 #include "nonet/team/strategy.h"
 
 namespace nonet::team {
@@ -53,6 +54,7 @@ const Action& Behavior::update(const world::WorldState& world, const motion::Mot
   role_ = situation.role;
   const std::optional<Action> own = challenge_.update(situation);
   action_ = own ? *own : decide(situation);
+  if (const auto slowly = spareOpponents(situation, action_.motion)) action_.motion = *slowly;
   if (!action_.head) action_.head = glance(situation, action_);
   if (!action_.head) action_.head = lookAtBall(world);
   if (action_.beam) tracker_.noticeBeam(world.time);

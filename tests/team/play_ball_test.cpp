@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 #include "nonet/team/behaviors.h"
 
@@ -128,6 +129,97 @@ TEST(PlayBall, KicksOnlyToWhereOneOfUsIsFirst) {
   EXPECT_TRUE(kicks(-5.0, {1.3, 9.0}, 0.0)) << "9 m at 0.6 m/s are longer than 6.5 m at 0.9";
   EXPECT_FALSE(kicks(-5.0, {1.3, 9.0}, 10.0)) << "but not by so much";
   EXPECT_TRUE(kicks(10.0, {14.5, 1.5}, 0.0)) << "a shot ends in the goal";
+}
+
+// Straight ahead through the ball, from this place behind it: is it dribbled, and how far off is the next
+// place?
+struct Touch {
+  bool dribbled = false;
+  double apart = 0.0;  // m, of the place that the robot goes to from the ball
+};
+Touch touch(const Vector2& ball, double pushed, double heading) {
+  Scene scene;
+  scene.parameters.ball.kick = false;
+  scene.stand(Pose2(ball - 0.2 * unitVector(pushed), heading));
+  scene.putBall(ball);
+  const Action action = scene.decideAs(Role::OnBall);
+  return {action.reason.behavior == std::string_view("dribble"), (goalOf(scene, action) - ball).norm()};
+}
+
+TEST(PlayBall, DoesNotPushABallOutBesideTheGoal) {
+  // The target lies 44 degrees to the right, the push leads 15 degrees: over the line at y = 1.25.
+  const Vector2 ball(13.7, 1.6);
+  const Touch out = touch(ball, toRadians(-15.0), toRadians(-30.0));
+  EXPECT_FALSE(out.dribbled);
+  EXPECT_NEAR(out.apart, BallHandlingParameters{}.standOff, 1e-6) << "not so near that the foot touches it";
+  EXPECT_TRUE(touch(ball, toRadians(-35.0), toRadians(-30.0)).dribbled) << "this leads into the goal";
+  EXPECT_TRUE(touch({0.0, 1.6}, toRadians(-8.0), toRadians(-6.0)).dribbled) << "no line is near";
+}
+
+TEST(PlayBall, KicksNothingOutOfTheField) {
+  const auto kicks = [](const Vector2& ball, const Vector2& target) {
+    Scene scene;
+    const double direction = directionOf(target - ball);
+    scene.stand(Pose2(ball - 0.25 * unitVector(direction), direction));
+    scene.putBall(ball);
+    return std::holds_alternative<motion::KickTo>(scene.handleBall(target, KickUse::IfFree));
+  };
+  EXPECT_TRUE(kicks({0.0, 4.0}, {2.0, 4.0}));
+  EXPECT_FALSE(kicks({0.0, 4.0}, {0.0, 6.0})) << "6.3 m on is beyond the touch line";
+  EXPECT_FALSE(kicks({10.0, 4.0}, {12.0, 4.0})) << "beside the goal";
+  EXPECT_TRUE(kicks({10.0, 4.0}, {15.0, 0.0})) << "into the goal";
+}
+
+TEST(BallTarget, HitsTheGoalAsOftenAsBallsThatAreDrawn) {
+  Random random(3);
+  for (int trial = 0; trial < 40; ++trial) {
+    world::WorldState world;
+    const Vector2 ball(random.uniform(9.0, 14.8), random.uniform(-4.0, 4.0));
+    world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+    const double spread = random.uniform(0.05, 0.3);
+    const double direction = directionOf(Vector2(15.0, 0.0) - ball) + random.uniform(-0.4, 0.4);
+    constexpr int kDraws = 20000;
+    int hits = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      const Vector2 way = unitVector(direction + spread * random.normal());
+      if (way.x() <= 0.0) continue;
+      hits +=
+          std::abs(ball.y() + (15.0 - ball.x()) / way.x() * way.y()) < 0.5 * world.field.goalWidth ? 1 : 0;
+    }
+    EXPECT_NEAR(hitsGoal(world, direction, spread), static_cast<double>(hits) / kDraws, 0.012) << trial;
+  }
+}
+
+// The oracle rolls the ball centimetre by centimetre.
+TEST(BallTarget, RollsOutWhereItLeavesTheFieldFirst) {
+  Random random(4);
+  const BallTargetParameters p;
+  int out = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    world::WorldState world;
+    const Vector2 ball(random.uniform(-14.5, 14.9), random.uniform(-9.7, 9.7));
+    world.ball.p_FB = Vector3(ball.x(), ball.y(), 0.042);
+    const double direction = random.uniform(-kPi, kPi);
+    bool rollsOutThere = false;
+    for (double rolled = 0.0; rolled < p.rollsOn; rolled += 0.01) {
+      const Vector2 at = ball + rolled * unitVector(direction);
+      if (at.x() > 15.0) {
+        rollsOutThere = std::abs(at.y()) > 0.5 * world.field.goalWidth - p.postMargin;
+        break;
+      }
+      if (at.x() > -15.0 && std::abs(at.y()) < 10.0 - p.touchLineMargin) continue;
+      rollsOutThere = true;
+      break;
+    }
+    // Within a centimetre of a post or of the end of the way they may differ.
+    const bool near = rollsOut(world, p, direction + 0.01) != rollsOut(world, p, direction - 0.01);
+    const Vector2 end = ball + p.rollsOn * unitVector(direction);
+    const bool edge = std::abs(std::abs(end.x()) - 15.0) < 0.02 || std::abs(std::abs(end.y()) - 9.8) < 0.02;
+    if (near || edge) continue;
+    EXPECT_EQ(rollsOut(world, p, direction), rollsOutThere) << ball.transpose() << " at " << direction;
+    out += rollsOutThere ? 1 : 0;
+  }
+  EXPECT_GT(out, 200);
 }
 
 TEST(BallTarget, LiesInTheGoalOrBringsTheBallBackToTheMiddle) {

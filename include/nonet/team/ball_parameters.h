@@ -10,7 +10,7 @@ struct BallTargetParameters {
   double atGoal = 3.5;
   double atGoalInside = 0.3;
   double behindLine = 0.2;
-  double insidePost = 0.4;
+  double insidePost = 0.9;
   double afar = 3.0;
   double middle = 0.2;
   double cornerDepth = 1.0;
@@ -20,11 +20,14 @@ struct BallTargetParameters {
   double openPostMargin = 0.25;
   double openTurnCost = 0.15;
   double openMiddle = 0.05;
+  double aimSpread = 0.15;
   double barReach = 1.5;
   double barWidth = 0.6;
   double barCost = 0.8;
   double facingCost = 0.05;
   double touchLineMargin = 0.2;
+  double rollsOn = 2.0;
+  double postMargin = 0.1;
   double around = 2.0;
 
   template <class Self, class Visitor>
@@ -82,6 +85,12 @@ struct BallTargetParameters {
            fixed,
            "Open goal: lane width that each metre off the middle must be worth"},
           self.openMiddle);
+    visit({"aimSpread",
+           Unit::Radian,
+           {0.01, 1},
+           search(0.03, 0.4),
+           "Open goal: deviation of a ball's direction, which makes places hard to hit that are seen aslant"},
+          self.aimSpread);
     visit({"barReach",
            Unit::Metre,
            {0, 10},
@@ -110,8 +119,21 @@ struct BallTargetParameters {
            Unit::Metre,
            {0, 2},
            fixed,
-           "A direction that leads within a metre nearer to the touch line is out"},
+           "A direction in which a pushed ball comes nearer to the touch line is out"},
           self.touchLineMargin);
+    visit({"rollsOn",
+           Unit::Metre,
+           {0, 10},
+           search(0.5, 3),
+           "So far rolls a ball that is pushed: directions that lead out of the field by then cost 1 and are "
+           "not dribbled in; 0: nobody asks"},
+          self.rollsOn);
+    visit({"postMargin",
+           Unit::Metre,
+           {0, 1},
+           search(0, 0.4),
+           "Over the goal line is out unless it is this far inside the posts"},
+          self.postMargin);
     visit(
         {"around", Unit::Metre, {0.1, 10}, search(0.8, 3), "Around an opponent: the ball is played this far"},
         self.around);
@@ -121,6 +143,7 @@ struct BallTargetParameters {
 /// How the player on the ball goes behind it, dribbles and kicks (behaviors/).
 struct BallHandlingParameters {
   double behindBall = 0.18;
+  double standOff = 0.28;
   double circleRadius = 0.45;
   double dribbleThrough = 0.6;
   double alignedAngle = 0.45;
@@ -151,6 +174,12 @@ struct BallHandlingParameters {
     using namespace config;
     visit({"behindBall", Unit::Metre, {0.05, 2}, search(0.1, 0.5), "Approach point: torso behind the ball"},
           self.behindBall);
+    visit({"standOff",
+           Unit::Metre,
+           {0, 2},
+           search(0.18, 0.5),
+           "The same while a touch would roll the ball out of the field"},
+          self.standOff);
     visit({"circleRadius",
            Unit::Metre,
            {0.1, 3},

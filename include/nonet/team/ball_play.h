@@ -52,6 +52,13 @@ struct BallPlay {
 Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& parameters,
                    Candidates* record = nullptr);
 
+/// The probability that a ball that is sent this way (rad, own field frame) crosses the goal line between the
+/// posts, with this standard deviation (rad) of its direction; if nobody stops it.
+double hitsGoal(const world::WorldState& world, double direction, double spread);
+
+/// A ball that is pushed this way leaves the field before it has rolled out, and not into the goal.
+bool rollsOut(const world::WorldState& world, const BallTargetParameters& parameters, double direction);
+
 /// How much the opponents near the ball bar this direction of it (rad, own field frame), 0 .. 1.
 double barred(const world::WorldState& world, const BallTargetParameters& parameters, double direction);
 

@@ -210,6 +210,7 @@ struct TeamParameters {
   GoalieParameters goalie;
   PaceParameters pace;
   NavigationParameters navigation;
+  ChargingParameters charging;
   SetPlayParameters setPlay;
   BeamParameters beam;
   SearchParameters ballSearch;
@@ -237,6 +238,7 @@ struct TeamParameters {
     visit.group("goalie", self.goalie);
     visit.group("pace", self.pace);
     visit.group("navigation", self.navigation);
+    visit.group("charging", self.charging);
     visit.group("setPlay", self.setPlay);
     visit.group("beam", self.beam);
     visit.group("ballSearch", self.ballSearch);

@@ -131,6 +131,46 @@ struct BeamParameters {
   }
 };
 
+/// Walking slowly into opponents, as the referee wants it (charging.h).
+struct ChargingParameters {
+  double speed = 0.3;
+  double reach = 0.5;
+  double lead = 0.05;
+  double closing = 0.3;
+  double touched = 0.25;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"speed",
+           Unit::MetrePerSecond,
+           {0, 1},
+           search(0, 0.4),
+           "Speed at which one comes into contact: fouls begin at 0.4; 0: nobody slows down"},
+          self.speed);
+    visit({"reach", Unit::Metre, {0, 2}, search(0.3, 0.8), "Opponents so near are about to be touched"},
+          self.reach);
+    visit({"lead",
+           Unit::Metre,
+           {-1, 2},
+           search(0, 0.3),
+           "An opponent nearer to the ball by this much has the right of way"},
+          self.lead);
+    visit({"closing",
+           Unit::None,
+           {-1, 1},
+           search(0, 0.8),
+           "Only a way whose cosine with that to the opponent is larger leads into it"},
+          self.closing);
+    visit({"touched",
+           Unit::Metre,
+           {0, 1},
+           fixed,
+           "Who is so near to the ball has touched it, and may run into anybody for a second"},
+          self.touched);
+  }
+};
+
 /// Going somewhere among others (navigation.h).
 struct NavigationParameters {
   double lookAhead = 0.5;

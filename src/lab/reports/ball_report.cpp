@@ -119,6 +119,21 @@ BallSkillReport measureDuel(const BallReportSettings& s, const sim::Settings& se
        figure("duel_open", "share undecided", trials, [](const auto& t) { return t.won == 0.5; })});
 }
 
+BallSkillReport measureAttack(const BallReportSettings& s, const sim::Settings& server) {
+  const Defence defence{s.goalie, s.opponent};
+  const auto trials = repeated(s, [&](auto seed) { return attackOnce(s.agent, defence, server, seed); });
+  const auto goal = [](const Attack& trial) { return trial.goal; };
+  return reportOf(
+      "attack", trials,
+      {figure("attack_goals", "share with a goal", trials, goal),
+       figure("attack_out", "share out of the field", trials, [](const auto& t) { return t.out; }),
+       figure("attack_lost", "share driven away", trials, [](const auto& t) { return t.lost; }),
+       figure("attack_charged", "share taken off for charging", trials,
+              [](const auto& t) { return t.charged; }),
+       figure(
+           "attack_s", "s until the goal", trials, [](const auto& t) { return t.simulated; }, goal)});
+}
+
 BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, [&](auto seed) { return receiveOnce(s.agent, server, seed); });
   return reportOf("receive", trials,
@@ -144,6 +159,7 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
   if (skill == "slalom") return measureSlalom(s, server, all);
   if (skill == "drive") return measureDrive(s, server);
   if (skill == "duel") return measureDuel(s, server);
+  if (skill == "attack") return measureAttack(s, server);
   if (skill == "receive") return measureReceiving(s, server);
   if (skill == "run") return measureRun(s, server);
   throw std::runtime_error(
@@ -153,7 +169,7 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
 }  // namespace
 
 std::vector<std::string> ballSkillNames() {
-  return {"approach", "dribble", "slalom", "drive", "duel", "receive", "run"};
+  return {"approach", "dribble", "slalom", "drive", "duel", "attack", "receive", "run"};
 }
 
 BallReport measureBallSkills(const BallReportSettings& settings) {

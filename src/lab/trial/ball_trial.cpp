@@ -76,6 +76,14 @@ constexpr double kDuelApart = 0.5;  // m from the ball
 constexpr double kDuelGain = 2.0;   // m
 constexpr double kDuelTime = 20.0;  // s
 
+// -- attack
+
+constexpr double kAttackTime = 25.0;   // s
+constexpr double kAttackBehind = 0.4;  // m behind the ball
+constexpr double kAttackLost = 5.0;    // m
+constexpr double kGoalieBefore = 0.6;  // m before its line
+constexpr double kStillOpen = 0.3;     // worth of a ball that is still there in the end
+
 constexpr double kPassTime = 6.0;  // s
 
 // -- run
@@ -167,6 +175,42 @@ Duel duelOnce(const agent::AgentConfig& agent, const agent::AgentConfig& opponen
   if (std::abs(gained()) >= kDuelGain) duel.won = gained() > 0.0 ? 1.0 : 0.0;
   trial.charge(duel);
   return duel;
+}
+
+double Attack::worth() const {
+  if (goal) return 1.0;
+  return out || lost ? 0.0 : kStillOpen;
+}
+
+Attack attackOnce(const agent::AgentConfig& agent, const Defence& defence, const sim::Settings& settings,
+                  std::uint64_t seed) {
+  Random random(seed);
+  const Vector2 goal(0.5 * settings.fieldLength, 0.0);
+  GameSituation situation;
+  situation.ball = {goal.x() - random.uniform(2.5, 6.0), random.uniform(-4.0, 4.0)};
+  const double toGoal = directionOf(goal - situation.ball);
+  const double heading = toGoal + random.uniform(-0.7, 0.7);
+  GamePlayer goalie{defence.goalie, true, Pose2(goal.x() - kGoalieBefore, 0.0, kPi), {}};
+  goalie.agent.unum = 1;
+  situation.players = {
+      fieldPlayer(agent, Pose2(situation.ball - kAttackBehind * unitVector(heading), heading), {}), goalie};
+  for (const double least : {0.6, 1.8}) {
+    const double from = toGoal + random.uniform(-1.2, 1.2);
+    const Vector2 place = situation.ball + random.uniform(least, least + 1.4) * unitVector(from);
+    GamePlayer back{defence.back, true, Pose2(place, wrapAngle(from + kPi)), {}};
+    back.agent.unum = static_cast<int>(situation.players.size());
+    situation.players.push_back(back);
+  }
+  RecordedTrial trial(settings, situation, random.next());
+  const auto lost = [&] { return trial.track().back().ball.x() < situation.ball.x() - kAttackLost; };
+  trial.run(kAttackTime, [&] { return trial.playsOn() && !lost(); });
+  Attack attack;
+  attack.goal = trial.game().simulation().match().playMode == protocol::PlayMode::GoalLeft;
+  attack.out = !attack.goal && !trial.playsOn();
+  attack.lost = lost();
+  attack.charged = trial.game().fouls(0, sim::FoulType::Charging) > 0;
+  trial.charge(attack);
+  return attack;
 }
 
 Reception receiveOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed) {

@@ -31,15 +31,25 @@ bool mayShoot(const Situation& s) {
          laneWidth(s.world, s.ball(), crossing, std::numeric_limits<double>::infinity()) > p.kickLane;
 }
 
+// Where the longest kick towards the target comes to rest, own field frame.
+Vector2 kickEnd(const Situation& s) {
+  double longest = 0.0;
+  for (const motion::KickOption& kick : s.motion.kicks) longest = std::max(longest, kick.head.longest);
+  const Vector2 way = s.play->p_FTarget - s.ball();
+  return s.ball() + s.parameters.choice.length * longest * way.normalized();
+}
+
+bool endsInField(const Situation& s) {
+  const Vector2 end = kickEnd(s);
+  if (std::abs(end.y()) > 0.5 * s.world.field.width) return false;
+  return end.x() < 0.5 * s.world.field.length || betweenPosts(s, goalCrossing(s));
+}
+
 // One of us is first where the longest kick towards the target comes to rest. A ball that crosses the line
 // between the posts need not be caught.
 bool staysOurs(const Situation& s) {
   const BallHandlingParameters& p = s.parameters.ball;
-  double longest = 0.0;
-  for (const motion::KickOption& kick : s.motion.kicks) longest = std::max(longest, kick.head.longest);
-  const Vector2 ball = s.ball();
-  const Vector2 way = s.play->p_FTarget - ball;
-  const Vector2 end = ball + s.parameters.choice.length * longest * way.normalized();
+  const Vector2 end = kickEnd(s);
   if (end.x() > 0.5 * s.world.field.length && betweenPosts(s, goalCrossing(s))) return true;
   return teammatesTime(s, end) + p.kickLead < opponentsTime(s, end);
 }
@@ -50,6 +60,7 @@ bool mayKick(const Situation& s, bool there) {
   if (!p.kick || use == KickUse::Never) return false;
   if (s.world.ball.v_FB.head<2>().norm() > p.kickRolling) return false;
   if (mayShoot(s)) return true;
+  if (use == KickUse::IfFree && !endsInField(s)) return false;
   if (s.nearestOpponent < (there ? p.kickPress : 1.0) * p.kickOpponentDistance) return false;
   if (use == KickUse::Clear || there) return true;
   if (!staysOurs(s)) return false;

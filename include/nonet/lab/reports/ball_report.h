@@ -14,7 +14,8 @@ namespace nonet::lab {
 
 struct BallReportSettings {
   agent::AgentConfig agent;
-  agent::AgentConfig opponent;  // in the duel
+  agent::AgentConfig opponent;  // in the duel and before the goal
+  agent::AgentConfig goalie;    // the opponents'
   std::string skill = "all";    // or one of ballSkillNames()
   int trials = 50;              // of each skill
   std::uint64_t seed = 1;
@@ -45,7 +46,7 @@ struct BallReport {
   std::vector<Dribble> slaloms;  // for the picture
 };
 
-/// approach, dribble, slalom, drive, duel, receive, run.
+/// approach, dribble, slalom, drive, duel, attack, receive, run.
 std::vector<std::string> ballSkillNames();
 
 /// Throws std::runtime_error that names the skills if the one wanted is unknown.

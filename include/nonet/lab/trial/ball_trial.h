@@ -51,6 +51,23 @@ struct Duel : TrialCost {
 Duel duelOnce(const agent::AgentConfig& agent, const agent::AgentConfig& opponent,
               const sim::Settings& settings, std::uint64_t seed);
 
+struct Attack : TrialCost {
+  bool goal = false;
+  bool out = false;      // the ball left the field, beside the goal or over a touch line
+  bool lost = false;     // the ball was driven 5 m away from the goal line where it began, or farther
+  bool charged = false;  // the attacker was taken off for running into somebody
+  double worth() const;  // 1: a goal; 0.3: nothing of these yet
+};
+/// Who plays against the one that attacks.
+struct Defence {
+  agent::AgentConfig goalie;
+  agent::AgentConfig back;
+};
+/// One with the ball 2.5 to 6 m before the goal, against a goalie and two backs that stand nearer to it, 25
+/// s.
+Attack attackOnce(const agent::AgentConfig& agent, const Defence& defence, const sim::Settings& settings,
+                  std::uint64_t seed);
+
 struct Reception : TrialCost, ReceiveResult {
   double speed = 0.0;  // m/s of the pass a metre before the robot
   double aside = 0.0;  // m, by how much it would pass the robot

@@ -1,0 +1,55 @@
+#include "nonet/team/charging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
+
+namespace nonet::team {
+
+namespace {
+
+// Of the way's heading while one goes slowly; no play depends on it.
+constexpr double kTurnGain = 2.0;   // 1/s
+constexpr double kTurnSpeed = 1.0;  // rad/s
+
+double angleBetween(const Vector2& a, const Vector2& b) {
+  return std::abs(angleDifference(directionOf(a), directionOf(b)));
+}
+
+// The referee would call it if we ran into this opponent on this way (own field frame, a unit vector).
+bool wouldCharge(const Situation& s, const world::PlayerState& opponent, const Vector2& way) {
+  const ChargingParameters& p = s.parameters.charging;
+  const Vector2 self = s.world.self.X_FR.translation;
+  const Vector2 toOpponent = opponent.X_FP.translation - self;
+  const Vector2 toBall = s.ball() - self;
+  if (toOpponent.norm() > p.reach || way.dot(toOpponent.normalized()) < p.closing) return false;
+  if (toBall.norm() < p.touched) return false;
+  const double theirs = (s.ball() - opponent.X_FP.translation).norm();
+  const double besideBall = angleBetween(way, toBall);
+  const bool runsAtThem = besideBall >= toRadians(30.0) && besideBall >= angleBetween(way, toOpponent);
+  return runsAtThem || toBall.norm() > theirs + p.lead;
+}
+
+}  // namespace
+
+std::optional<motion::MotionRequest> spareOpponents(const Situation& s,
+                                                    const motion::MotionRequest& request) {
+  const double speed = s.parameters.charging.speed;
+  const auto* walk = std::get_if<motion::WalkTo>(&request);
+  if (walk == nullptr || speed == 0.0 || !s.acts() || s.role == Role::Goalie) return std::nullopt;
+  const Vector2 step = walk->target.translation;
+  if (step.norm() < 1e-3) return std::nullopt;
+  const Vector2 way = s.world.self.X_FR.rotate(step).normalized();
+  const auto& opponents = s.world.opponents;
+  const bool charges = std::any_of(opponents.begin(), opponents.end(), [&](const world::PlayerState& player) {
+    return player.known && !player.fallen && wouldCharge(s, player, way);
+  });
+  if (!charges) return std::nullopt;
+  const double turn = std::clamp(kTurnGain * walk->target.rotation, -kTurnSpeed, kTurnSpeed);
+  return motion::WalkVelocity{Pose2(speed * step.normalized(), turn)};
+}
+
+}  // namespace nonet::team

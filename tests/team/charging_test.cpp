@@ -1,0 +1,61 @@
+// Who would run into an opponent slows down, unless the referee lets it pass.
+#include "nonet/team/charging.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "scene.h"
+
+namespace nonet::team {
+namespace {
+
+// One stands at (0, 0) and walks straight on, x metres at most; its speed as it is asked for then, m/s.
+// Infinite: as fast as it can.
+double speedTowards(const Scene& scene, double rotation = 0.0) {
+  const motion::MotionRequest fast = motion::WalkTo{Pose2(1.0, 0.0, rotation), false};
+  const auto slowly = spareOpponents(scene.situation(Role::OnBall), fast);
+  if (!slowly) return std::numeric_limits<double>::infinity();
+  return std::get<motion::WalkVelocity>(*slowly).velocity.translation.norm();
+}
+
+Scene sceneWith(const Vector2& ball, const Vector2& opponent) {
+  Scene scene;
+  scene.putBall(ball);
+  Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
+  return scene;
+}
+
+TEST(Charging, SlowsDownBeforeAnOpponentThatIsNearerToTheBall) {
+  EXPECT_NEAR(speedTowards(sceneWith({0.6, 0.0}, {0.45, 0.1})), TeamParameters{}.charging.speed, 1e-9);
+  EXPECT_LT(TeamParameters{}.charging.speed, 0.4) << "server facts 4.10: ChargingMinSpeed";
+}
+
+TEST(Charging, RunsOnWhenTheRefereeLetsItPass) {
+  EXPECT_TRUE(std::isinf(speedTowards(sceneWith({1.5, 0.0}, {0.9, 0.0})))) << "it is far";
+  EXPECT_TRUE(std::isinf(speedTowards(sceneWith({0.3, 0.0}, {0.45, 0.3})))) << "the ball is nearer to us";
+  EXPECT_TRUE(std::isinf(speedTowards(sceneWith({0.2, 0.0}, {0.3, 0.0})))) << "we are at the ball";
+  EXPECT_TRUE(std::isinf(speedTowards(sceneWith({-1.0, 0.0}, {-0.4, 0.0})))) << "the way leads elsewhere";
+  Scene fallen = sceneWith({0.6, 0.0}, {0.45, 0.1});
+  fallen.world.opponents[4].fallen = true;
+  EXPECT_TRUE(std::isinf(speedTowards(fallen)));
+  Scene off = sceneWith({0.6, 0.0}, {0.45, 0.1});
+  off.parameters.charging.speed = 0.0;
+  EXPECT_TRUE(std::isinf(speedTowards(off)));
+}
+
+// Towards the opponent rather than to the ball: that is a charge also for the one who is nearer to it.
+TEST(Charging, SlowsDownWhereTheWayLeadsToTheOpponentRatherThanTheBall) {
+  EXPECT_FALSE(std::isinf(speedTowards(sceneWith({0.1, 0.4}, {0.45, 0.0}))));
+}
+
+TEST(Charging, StillTurnsWhereTheWayTurns) {
+  const Scene scene = sceneWith({0.6, 0.0}, {0.45, 0.1});
+  const auto slowly =
+      spareOpponents(scene.situation(Role::OnBall), motion::WalkTo{Pose2(1.0, 0.0, 0.2), false});
+  ASSERT_TRUE(slowly);
+  EXPECT_GT(std::get<motion::WalkVelocity>(*slowly).velocity.rotation, 0.1);
+}
+
+}  // namespace
+}  // namespace nonet::team
