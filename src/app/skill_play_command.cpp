@@ -127,8 +127,7 @@ void addSkillPlayCommand(CLI::App& skillCommand, int& exitCode) {
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(
       "The last posture is held at the end. Learned values of params/ hold for the skills of the data "
-      "folder; a "
-      "FILE.skl\nelsewhere is played with the numbers that stand in it.\n"
+      "folder; a FILE.skl\nelsewhere is played with the numbers that stand in it.\n"
       "Examples:\n  nonet skill play kick_power --type 4 --monitor kick.mon --plot kick.svg\n"
       "  nonet skill play wave.skl --mirror\n  nonet skill play kick_quick --ball 0.2,0.07 --json");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });

@@ -221,8 +221,7 @@ std::string drawLegend(const std::vector<LegendEntry>& entries, double x, double
 std::string svgPicture(double width, double height, std::string_view content) {
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
-      "{1:.0f}' "
-      "font-family='sans-serif' font-size='11'>\n<rect width='100%' height='100%' "
+      "{1:.0f}' font-family='sans-serif' font-size='11'>\n<rect width='100%' height='100%' "
       "fill='white'/>\n{2}</svg>\n",
       width, height, content);
 }

@@ -164,8 +164,7 @@ std::string skillReportText(const SkillTrial& trial, const SkillTrialSettings& s
   if (kick.contact) {
     text += fmt::format(
         "touched after {:.2f} s, {:.1f} m/s, {:.2f} m far,\n           direction {:+.1f} deg (left is "
-        "positive; "
-        "meant: {:+.1f}), centre up to {:.2f} m high\n",
+        "positive; meant: {:+.1f}), centre up to {:.2f} m high\n",
         kick.time, kick.speed, kick.distance, toDegrees(kick.direction), toDegrees(kick.intended),
         kick.height);
   } else {
@@ -209,8 +208,7 @@ std::string skillReportSvg(const SkillTrial& trial, const SkillTrialSettings& se
   const std::string head = fmt::format(
       "<text x='14' y='22' font-size='15' font-weight='bold'>{}: {} after {:.2f} s{}</text>\n"
       "<text x='14' y='42'>angles as the skill's text counts them; in brackets the joint's reach; upright "
-      "lines: "
-      "a statement begins, with its line in the file</text>\n",
+      "lines: a statement begins, with its line in the file</text>\n",
       xmlText(title(settings)), resultName(trial.result), trial.duration,
       trial.fell ? ", the robot fell" : "");
   const double width = kPanelWidth * kColumns;
