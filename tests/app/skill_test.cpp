@@ -1,13 +1,15 @@
 // `nonet skill check` and `nonet skill play` as a user runs them.
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "nonet/app/view/track.h"
-#include "nonet/math/angle.h"
 
 #include "app/program.h"
 
@@ -183,7 +185,7 @@ TEST_F(SkillPlay, MirrorsIt) {
 // The learned kick sends the ball where its head says, with either foot; a ball beside the way stays there.
 TEST_F(SkillPlay, KicksTheBallThatLiesInItsPlace) {
   for (const std::vector<std::string>& side : {std::vector<std::string>{}, {"--mirror"}}) {
-    std::vector<std::string> options = {"--json", "--type", "4"};
+    std::vector<std::string> options = {"--json", "--type", "4", "--monitor", folder.file("kick.mon")};
     options.insert(options.end(), side.begin(), side.end());
     const auto [code, output] = play("kick_power", options);
     ASSERT_EQ(code, 0) << output;
@@ -192,6 +194,12 @@ TEST_F(SkillPlay, KicksTheBallThatLiesInItsPlace) {
     EXPECT_GT(kick["distance_m"].get<double>(), 4.0);
     EXPECT_NEAR(kick["direction_deg"].get<double>(), kick["intended_direction_deg"].get<double>(), 15.0);
     EXPECT_LT(kick["contact_s"].get<double>(), jsonOf(output)["duration_s"].get<double>());
+    // The viewer finds the kick by itself, in what anybody can see.
+    const Track track = readMonitorLog(folder.file("kick.mon"));
+    const auto event = std::find_if(track.events().begin(), track.events().end(),
+                                    [](const TrackEvent& e) { return e.kind == TrackEvent::Kind::Kick; });
+    ASSERT_NE(event, track.events().end());
+    EXPECT_NEAR(static_cast<double>(event->frame) * 0.02, kick["contact_s"].get<double>(), 0.041);
   }
   const auto [code, output] =
       play("kick_power", {"--json", "--type", "4", "--ball", "0.2,0.6", "--seconds", "1.5"});

@@ -27,6 +27,10 @@ constexpr const char* kDone = "#b04a00";
 constexpr const char* kLimit = "#c03020";
 constexpr const char* kMark = "#888";
 
+double topOf(int row) {
+  return kHead + kPanelHeight * row;
+}
+
 /// Degrees as the skill's text has them.
 double written(JointId joint, double angle) {
   return (motion::countsBackwards(joint) ? -1.0 : 1.0) * toDegrees(angle);
@@ -196,7 +200,7 @@ std::string skillReportSvg(const SkillTrial& trial, const SkillTrialSettings& se
   int panels = 0;
   const auto add = [&](const char* kind, const Plot& plot) {
     const PlotBox box{kPanelWidth * (panels % kColumns) + kPlotMargin.left,
-                      kHead + kPanelHeight * (panels / kColumns) + kPlotMargin.top,
+                      topOf(panels / kColumns) + kPlotMargin.top,
                       kPanelWidth - kPlotMargin.left - kPlotMargin.right,
                       kPanelHeight - kPlotMargin.top - kPlotMargin.bottom};
     content += fmt::format("<g class='{}'>\n{}</g>\n", kind, drawPlot(plot, box));
@@ -212,7 +216,7 @@ std::string skillReportSvg(const SkillTrial& trial, const SkillTrialSettings& se
       xmlText(title(settings)), resultName(trial.result), trial.duration,
       trial.fell ? ", the robot fell" : "");
   const double width = kPanelWidth * kColumns;
-  return svgPicture(width, kHead + kPanelHeight * ((panels + kColumns - 1) / kColumns) + 8.0,
+  return svgPicture(width, topOf((panels + kColumns - 1) / kColumns) + 8.0,
                     head +
                         drawLegend({{"told (target)", kTold, false},
                                     {"done (measured)", kDone, false},
