@@ -1,16 +1,20 @@
 #include "nonet/agent/agent.h"
 
+#include "nonet/agent/skill_show.h"
 #include "nonet/team/behavior.h"
 
 namespace nonet::agent {
 
 struct Agent::Stages {
   explicit Stages(const AgentConfig& agentConfig)
-      : config(agentConfig), robot(robotConfig(config)), behavior(config.parameters.team, config.challenge) {}
+      : config(agentConfig), robot(robotConfig(config)), behavior(config.parameters.team, config.challenge) {
+    if (config.skill) show.emplace(*config.skill);
+  }
 
   AgentConfig config;
   Robot robot;
   team::Behavior behavior;
+  std::optional<SkillShow> show;
   protocol::Effectors effectors;
   bool asked = false;
 };
@@ -50,6 +54,10 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
   const world::WorldState& world = s.robot.sense(percept);
   team::Action action = s.behavior.update(world, s.robot.motion().state());
   if (action.beam && s.config.startPose) action.beam = s.config.startPose;
+  if (s.show) {
+    action.motion = s.show->update(world, s.robot.motion().state());
+    if (s.robot.motion().state().busy) action.beam.reset();
+  }
   s.robot.act(action, effectors);
   return effectors;
 }

@@ -3,17 +3,21 @@
 #include <array>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "nonet/config/assignment.h"
 #include "nonet/config/parameters.h"
 #include "nonet/math/random.h"
+#include "nonet/motion/skill_language.h"
 #include "nonet/motion/skill_library.h"
 
 namespace nonet::agent {
 namespace {
 
 constexpr const char* kChallengeOption = "challenge";
+constexpr const char* kSkillOption = "skill";
+constexpr const char* kSideOption = "skillSide";   // "right" if it is mirrored
 constexpr std::string_view kStartMark = "start ";  // x, y in m, heading in rad, own field frame
 
 // Without its data an agent would play on, crippled: without kicks and rises, at half the speed.
@@ -28,6 +32,16 @@ std::string learnedFileIn(const std::string& dataFolder, int robotType) {
   if (std::filesystem::exists(file)) return file;
   throw config::ParameterError(file + ": is missing: it holds the learned values of robot type " +
                                std::to_string(robotType));
+}
+
+motion::PlaySkill skillOf(const AgentConfig& config, const std::string& name, bool mirrored) {
+  const motion::SkillLibrary library(config.skillFolder, config.parameters.motion.skills);
+  motion::PlaySkill skill;
+  if (library.find(name) < 0 || !skill.name.assign(name))
+    throw motion::SkillError(
+        fmt::format("{}: there is no skill '{}' in this folder", config.skillFolder, name));
+  skill.side = mirrored ? model::Side::Right : model::Side::Left;
+  return skill;
 }
 
 }  // namespace
@@ -47,6 +61,7 @@ AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFo
   }
   for (const std::string& file : choice.parameterFiles) config::overlayFile(config.parameters, file);
   for (const std::string& text : choice.assignments) config::assignParameter(config.parameters, text);
+  if (!choice.skill.empty()) config.skill = skillOf(config, choice.skill, choice.mirrorSkill);
   return config;
 }
 
@@ -60,6 +75,10 @@ protocol::LogHeader logHeader(const AgentConfig& config, const std::string& vers
   header.parameters = config::toToml(config.parameters);
   if (config.challenge != team::Challenge::None)
     header.options[kChallengeOption] = team::challengeName(config.challenge);
+  if (config.skill) {
+    header.options[kSkillOption] = config.skill->name.view();
+    header.options[kSideOption] = config.skill->side == model::Side::Right ? "right" : "left";
+  }
   return header;
 }
 
@@ -79,6 +98,10 @@ AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& d
   config.skillFolder = skillFolderIn(dataFolder);
   config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
   config::overlayText(config.parameters, header.parameters, path + ": parameters in the header");
+  if (const auto skill = header.options.find(kSkillOption); skill != header.options.end()) {
+    const auto side = header.options.find(kSideOption);
+    config.skill = skillOf(config, skill->second, side != header.options.end() && side->second == "right");
+  }
   return config;
 }
 

@@ -102,6 +102,10 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
       ->expected(2);
   command->add_option("--challenge", arguments->challenge,
                       "Technical challenge: run, kick, goalie, passing or keepaway");
+  CLI::Option* skill =
+      command->add_option("--skill", choice.skill,
+                          "Show this skill instead of playing, again and again, 2 s of standing before each");
+  command->add_flag("--mirror", choice.mirrorSkill, "With --skill: left and right exchanged")->needs(skill);
   command->add_option("--report", play.report, "Write what was counted as JSON at the end");
   command->add_flag("--at-once", play.atOnce,
                     "Connect without waiting for other agents of this machine to introduce themselves");

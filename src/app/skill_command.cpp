@@ -145,6 +145,7 @@ void addSkillCommand(CLI::App& app, int& exitCode) {
   formatCommand->add_flag("--check", arguments->testOnly,
                           "Write nothing; exit code 1 if a file would change");
   formatCommand->callback([arguments, &exitCode] { exitCode = format(*arguments); });
+  addSkillPlayCommand(*command, exitCode);
 }
 
 }  // namespace nonet::app

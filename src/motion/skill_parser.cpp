@@ -38,6 +38,11 @@ constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm
                                                  {"ankleRoll", JointId::LLeg6},
                                                  {"toe", JointId::LLeg7}}};
 
+bool isRight(JointId joint) {
+  return (joint >= JointId::RArm1 && joint <= JointId::RArm4) ||
+         (joint >= JointId::RLeg1 && joint <= JointId::RLeg7);
+}
+
 KickValue negated(const KickValue& value) {
   return {-value.constant, -value.per};
 }
@@ -424,6 +429,19 @@ SkillCheck checkSkills(std::string_view text, const std::string& file) {
   const ParameterLookup none;
   check.skills = Parser(text, file, none, &check.errors).run();
   return check;
+}
+
+std::string jointWord(JointId joint) {
+  if (joint == JointId::Head1) return "head.pan";
+  if (joint == JointId::Head2) return "head.tilt";
+  const JointId left = isRight(joint) ? model::mirrored(joint) : joint;
+  const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
+                                  [&](const JointWord& word) { return word.left == left; });
+  return fmt::format("{}.{}", isRight(joint) ? "right" : "left", found->name);
+}
+
+bool countsBackwards(JointId joint) {
+  return joint == JointId::Head2 || (isRight(joint) && mirrorsSign(joint));
 }
 
 }  // namespace nonet::motion

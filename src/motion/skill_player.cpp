@@ -82,6 +82,25 @@ bool SkillPlayer::start(std::string_view name, bool mirrored, const model::Joint
   return true;
 }
 
+SkillPlayer::Place SkillPlayer::statement() const {
+  if (depth_ == 0) return {};
+  const Frame& frame = frames_[static_cast<std::size_t>(depth_ - 1)];
+  const Skill& skill = library_->skill(frame.skill);
+  const Instruction& instruction = skill.program[static_cast<std::size_t>(frame.at)];
+  using Kind = Instruction::Kind;
+  switch (instruction.kind) {
+    case Kind::MoveOver:
+    case Kind::MoveAt:
+    case Kind::Swing:
+    case Kind::Curve:
+    case Kind::Wait:
+    case Kind::WaitUntil:
+      return {skill.name, instruction.line};
+    default:
+      return {};  // takes no time: the next cycle goes past it
+  }
+}
+
 SkillPlayer::Result SkillPlayer::update(const world::WorldState& world, JointTargets& targets) {
   if (depth_ == 0) return Result::Finished;
   double budget = world.body.cycleTime;

@@ -27,6 +27,7 @@ struct AgentConfig {
   std::string skillFolder;         // folder of the *.skl files
   std::optional<Pose2> startPose;  // challenges: beam here instead of to the kick-off place (own field frame)
   team::Challenge challenge = team::Challenge::None;  // play this instead of a match
+  std::optional<motion::PlaySkill> skill;             // or show this skill, again and again
 };
 
 /// The part of it below the team.

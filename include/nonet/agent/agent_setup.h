@@ -22,6 +22,8 @@ struct AgentChoice {
   std::vector<std::string> assignments;     // single parameters, "team.ball.kick=false", set last
   std::optional<Pose2> startPose;           // own field frame
   team::Challenge challenge = team::Challenge::None;
+  std::string skill;         // name of a skill to show instead of playing; empty: none
+  bool mirrorSkill = false;  // left and right exchanged
 };
 
 /// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml, then the given files,

@@ -20,6 +20,8 @@ void addFidelityCommand(CLI::App& app, int& exitCode);
 void addBenchCommand(CLI::App& app, int& exitCode);
 void addOptimizeCommand(CLI::App& app, int& exitCode);
 void addSkillCommand(CLI::App& app, int& exitCode);
+/// nonet skill play, a command of its own in size.
+void addSkillPlayCommand(CLI::App& skillCommand, int& exitCode);
 void addWalkReportCommand(CLI::App& app, int& exitCode);
 void addRiseReportCommand(CLI::App& app, int& exitCode);
 void addKickReportCommand(CLI::App& app, int& exitCode);

@@ -39,4 +39,9 @@ SkillCheck checkSkills(std::string_view text, const std::string& file);
 /// text does not parse. Formatting twice gives the same as once.
 std::string formatSkills(std::string_view text, const std::string& file);
 
+/// A joint by the language's name ("left.knee", "head.tilt"), and whether the language counts its angle the
+/// other way round than the server does: `right.shoulderYaw 30deg` is the mirror image of the left one's.
+std::string jointWord(model::JointId joint);
+bool countsBackwards(model::JointId joint);
+
 }  // namespace nonet::motion

@@ -33,6 +33,13 @@ class SkillPlayer {
   bool running() const { return depth_ > 0; }
   double elapsed() const { return time_; }  // s since start
 
+  /// Which statement is being carried out: where it stands in its file. Line 0: none.
+  struct Place {
+    std::string_view skill;
+    int line = 0;
+  };
+  Place statement() const;
+
   /// One cycle. The targets keep their last values when the skill is over.
   Result update(const world::WorldState& world, JointTargets& targets);
 

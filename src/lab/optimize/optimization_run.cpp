@@ -283,6 +283,7 @@ std::string OptimizationRun::line(const Eigen::MatrixXd& points, const std::vect
                       {"seeds", seeds},
                       {"candidates", std::move(candidates)},
                       {"incumbent", report.incumbent},
+                      {"incumbentError", standardError(incumbent_.values)},
                       {"incumbentGeneration", incumbent_.generation},
                       {"incumbentTrials", incumbent_.values.size()}};
   return whole.dump() + "\n";

@@ -33,13 +33,11 @@ nlohmann::ordered_json toJson(const LocalizationReport::ErrorQuantiles& error, d
           {"max", error.largest / unit}};
 }
 
-std::string polyline(const std::vector<Vector2>& points, std::string_view color) {
-  std::string text = fmt::format(R"(<polyline fill="none" stroke="{}" stroke-width="0.03" points=")", color);
-  for (const Vector2& p : points) text += fmt::format("{:.3f},{:.3f} ", p.x(), -p.y());
-  return text + "\"/>\n";
-}
-
 }  // namespace
+
+double LocalizationReport::Frame::positionError() const {
+  return (believed - truth).head<2>().norm();
+}
 
 double LocalizationReport::Frame::headingError() const {
   return std::abs(angleDifference(believedHeading, trueHeading));
@@ -70,6 +68,7 @@ void LocalizationReport::record(const world::WorldState& world, const Vector3& p
                                 bool rounded) {
   field_ = world.field;
   Frame& frame = frames_.emplace_back();
+  frame.time = world.time;
   frame.believed = world.self.X_FC.translation();
   frame.truth = p_FC;
   const Matrix3 R_FC = world.self.X_FC.linear();
@@ -113,7 +112,7 @@ LocalizationReport::Summary LocalizationReport::summary() const {
   std::vector<double> localized;
   std::size_t inside = 0;
   for (const Frame& frame : frames_) {
-    position.push_back((frame.believed - frame.truth).head<2>().norm());
+    position.push_back(frame.positionError());
     height.push_back(std::abs(frame.believed.z() - frame.truth.z()));
     heading.push_back(frame.headingError());
     if (frame.localized) localized.push_back(position.back());
@@ -155,47 +154,6 @@ std::string LocalizationReport::toText() const {
   text += fmt::format("  truth inside the stated 95% region in {:.1f}% of all frames; localized in {:.1f}%\n",
                       100.0 * s.coverage95, 100.0 * s.localizedShare);
   return text;
-}
-
-std::string LocalizationReport::toSvg() const {
-  const double x = 0.5 * field_.length;
-  const double y = 0.5 * field_.width;
-  const double border = 1.5;
-  std::string svg =
-      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="{} {} {} {}" width="1200">)"
-                  "\n",
-                  -x - border, -y - border, 2 * (x + border), 2 * (y + border));
-  svg += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" fill="#e8f0e4"/>)"
-                     "\n",
-                     -x - border, -y - border, 2 * (x + border), 2 * (y + border));
-  svg += R"(<g fill="none" stroke="#8aa080" stroke-width="0.05">)"
-         "\n";
-  const auto box = [&](double left, double top, double width, double height) {
-    svg += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}"/>)"
-                       "\n",
-                       left, top, width, height);
-  };
-  box(-x, -y, 2 * x, 2 * y);
-  box(-x, -0.5 * field_.areaWidth, field_.areaLength, field_.areaWidth);
-  box(x - field_.areaLength, -0.5 * field_.areaWidth, field_.areaLength, field_.areaWidth);
-  box(-x - field_.goalDepth, -0.5 * field_.goalWidth, field_.goalDepth, field_.goalWidth);
-  box(x, -0.5 * field_.goalWidth, field_.goalDepth, field_.goalWidth);
-  svg += fmt::format(R"(<line x1="0" y1="{}" x2="0" y2="{}"/><circle r="{}"/></g>)"
-                     "\n",
-                     -y, y, field_.circleRadius);
-  std::vector<Vector2> truth;
-  std::vector<Vector2> believed;
-  for (const Frame& frame : frames_) {
-    truth.emplace_back(frame.truth.head<2>());
-    believed.emplace_back(frame.believed.head<2>());
-  }
-  svg += polyline(truth, "#c03020");
-  svg += polyline(believed, "#2050c0");
-  svg +=
-      fmt::format(R"(<text x="{}" y="{}" font-size="0.6">truth red, belief blue; own goal on the left</text>)"
-                  "\n</svg>\n",
-                  -x, y + 1.1);
-  return svg;
 }
 
 }  // namespace nonet::lab

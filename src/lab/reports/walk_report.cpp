@@ -167,6 +167,7 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
   });
 
   WalkReport report;
+  report.robotType = settings.setup.robotType;
   report.trials = count;
   const auto collect = [&](int begin, int end, double Walk::*what) {
     std::vector<double> samples;

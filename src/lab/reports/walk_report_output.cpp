@@ -1,5 +1,6 @@
 // Walk reports as table, JSON and SVG.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -8,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/lab/reports/walk_report.h"
+
+#include "lab/common/plot.h"
 
 namespace nonet::lab {
 
@@ -32,49 +35,87 @@ std::string text(const Estimate& e) {
   return fmt::format("{:7.3f} +- {:.3f}", e.mean, e.ci95);
 }
 
-// One curve of a time plot.
-struct Curve {
-  std::string name;
-  std::string color;
-  std::vector<double> values;
+constexpr double kCenter = 300.0;  // of the polar plot
+constexpr double kRadius = 220.0;
+constexpr double kRing = 0.2;  // m/s from one ring to the next
+constexpr const char* kSteady = "#2060c0";
+constexpr const char* kFromStand = "#d07010";
+
+// Forward is up, left is left.
+std::string spokesAndRings(int rings) {
+  std::string svg;
+  for (int ring = 1; ring <= rings; ++ring) {
+    const double r = kRadius * ring / rings;
+    svg += fmt::format(
+        "<circle cx='{0}' cy='{0}' r='{1:.1f}' fill='none' stroke='#ccc'/><text x='{2:.1f}' y='{3:.1f}' "
+        "fill='#777'>{4:.1f}</text>\n",
+        kCenter, r, kCenter + 3 + r * std::sin(0.2), kCenter - r * std::cos(0.2) - 2, kRing * ring);
+  }
+  constexpr std::array<const char*, 4> kNames = {"forward", "left", "backward", "right"};
+  for (int i = 0; i < 8; ++i) {
+    const double angle = kPi * i / 4;
+    const double x = -std::sin(angle);
+    const double y = -std::cos(angle);
+    svg += fmt::format("<line x1='{0}' y1='{0}' x2='{1:.1f}' y2='{2:.1f}' stroke='#ddd'/>\n", kCenter,
+                       kCenter + kRadius * x, kCenter + kRadius * y);
+    svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n",
+                       kCenter + (kRadius + 26) * x, kCenter + (kRadius + 14) * y + 4,
+                       i % 2 == 0 ? kNames.at(static_cast<std::size_t>(i) / 2)
+                                  : fmt::format("{} deg", i < 4 ? 45 * i : 45 * i - 360));
+  }
+  // An arrow that the robot looks along.
+  return svg +
+         fmt::format("<path d='M {0} {1} l -6 12 l 12 0 z' fill='#444'/>\n", kCenter, kCenter - kRadius - 6);
+}
+
+std::string speedCurve(const std::array<Estimate, kWalkDirections>& speeds, double scale, const char* color) {
+  std::string svg = fmt::format("<polygon fill='none' stroke='{}' stroke-width='2' points='", color);
+  for (int d = 0; d < kWalkDirections; ++d) {
+    const double angle = 2.0 * kPi * d / kWalkDirections;
+    const double r = scale * std::max(0.0, speeds[static_cast<std::size_t>(d)].mean);
+    svg += fmt::format("{:.1f},{:.1f} ", kCenter - r * std::sin(angle), kCenter - r * std::cos(angle));
+  }
+  return svg + "'/>\n";
+}
+
+// What a walk does, cycle by cycle.
+struct WalkCourse {
+  std::vector<double> time;                     // s
+  std::array<std::vector<double>, 2> desired;   // centre of mass from the stance foot, x and y, m
+  std::array<std::vector<double>, 2> measured;  // the same
+  std::array<std::vector<double>, 2> ahead;     // soles from the torso, left and right, m
+  std::array<std::vector<double>, 2> height;
+  std::vector<double> pitch;  // deg
+  std::vector<double> roll;
+
+  void add(const RobotTrial& trial) {
+    const motion::WalkTrace& trace = trial.motion().walk().engine().trace();
+    time.push_back(static_cast<double>(time.size()) * kCycleTime);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      desired[i].push_back(trace.p_SComDesired[axis]);
+      measured[i].push_back(trace.p_SComMeasured[axis]);
+      ahead[i].push_back(trace.feet[i].translation().x());
+      height[i].push_back(trace.feet[i].translation().z());
+    }
+    pitch.push_back(toDegrees(trial.belief().body.pitch));
+    roll.push_back(toDegrees(trial.belief().body.roll));
+  }
 };
 
-// A box with curves over the same times, scaled to its own range.
-std::string panel(const std::string& title, const std::vector<Curve>& curves, double top, double cycleTime) {
-  constexpr double kLeftEdge = 60.0;
-  constexpr double kWidth = 800.0;
-  constexpr double kHeight = 140.0;
-  double low = 1e9;
-  double high = -1e9;
-  std::size_t count = 2;
-  for (const Curve& curve : curves) {
-    for (const double value : curve.values) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-    count = std::max(count, curve.values.size());
-  }
-  const double range = std::max(high - low, 1e-6);
-  std::string svg = fmt::format(
-      "<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#999'/>\n<text x='{}' "
-      "y='{}'>{}</text>\n"
-      "<text x='2' y='{}'>{:.3f}</text>\n<text x='2' y='{}'>{:.3f}</text>\n"
-      "<text x='{}' y='{}'>{:.2f} s</text>\n",
-      kLeftEdge, top, kWidth, kHeight, kLeftEdge, top - 5, title, top + 10, high, top + kHeight, low,
-      kLeftEdge + kWidth - 40, top + kHeight + 14, static_cast<double>(count) * cycleTime);
-  double label = kLeftEdge + 300;
-  for (const Curve& curve : curves) {
-    svg += fmt::format("<text x='{}' y='{}' fill='{}'>{}</text>\n<polyline fill='none' stroke='{}' points='",
-                       label, top - 5, curve.color, curve.name, curve.color);
-    label += 130;
-    for (std::size_t i = 0; i < curve.values.size(); ++i) {
-      const double x = kLeftEdge + kWidth * static_cast<double>(i) / static_cast<double>(count - 1);
-      const double y = top + kHeight * (high - curve.values[i]) / range;
-      svg += fmt::format("{:.1f},{:.1f} ", x, y);
-    }
-    svg += "'/>\n";
-  }
-  return svg;
+struct Line {
+  const char* name;
+  const std::vector<double>& values;
+};
+Plot timePlot(const std::string& title, const std::string& unit, const std::vector<double>& time,
+              const Line& one, const Line& other) {
+  Plot plot;
+  plot.title = title;
+  plot.xLabel = "time, s";
+  plot.yLabel = unit;
+  plot.curves = {{one.name, kSteady, time, one.values, false},
+                 {other.name, "#c03020", time, other.values, false}};
+  return plot;
 }
 
 }  // namespace
@@ -136,38 +177,24 @@ std::string walkReportJson(const WalkReport& report) {
 }
 
 std::string walkReportSvg(const WalkReport& report) {
-  constexpr double kCenter = 260.0;
   double fastest = 0.1;
   for (const Estimate& e : report.steady) fastest = std::max(fastest, e.mean);
-  const double rings = std::ceil(fastest / 0.2);
-  const double scale = 220.0 / (0.2 * rings);
-  std::string svg =
-      "<svg xmlns='http://www.w3.org/2000/svg' width='520' height='540' font-family='sans-serif' "
-      "font-size='12'>\n"
-      "<rect width='520' height='540' fill='white'/>\n";
-  for (int ring = 1; ring <= static_cast<int>(rings); ++ring) {
-    svg += fmt::format(
-        "<circle cx='{0}' cy='{0}' r='{1:.1f}' fill='none' stroke='#ccc'/>\n<text x='{2}' y='{3:.1f}' "
-        "fill='#888'>{4:.1f} m/s</text>\n",
-        kCenter, 0.2 * ring * scale, kCenter + 3, kCenter - 0.2 * ring * scale - 2, 0.2 * ring);
-  }
-  const auto curve = [&](const std::array<Estimate, kWalkDirections>& speeds, const char* color) {
-    svg += fmt::format("<polygon fill='none' stroke='{}' stroke-width='2' points='", color);
-    for (int d = 0; d < kWalkDirections; ++d) {
-      const double angle = 2.0 * kPi * d / kWalkDirections;
-      const double r = scale * std::max(0.0, speeds[static_cast<std::size_t>(d)].mean);
-      // Forward is up, left is left.
-      svg += fmt::format("{:.1f},{:.1f} ", kCenter - r * std::sin(angle), kCenter - r * std::cos(angle));
-    }
-    svg += "'/>\n";
-  };
-  curve(report.fromStand, "#e08020");
-  curve(report.steady, "#2060c0");
+  for (const Estimate& e : report.fromStand) fastest = std::max(fastest, e.mean);
+  const double rings = std::ceil(fastest / kRing);
+  const double scale = kRadius / (kRing * rings);
+  std::string svg = fmt::format(
+      "<text x='14' y='24' font-size='15' font-weight='bold'>robot type {}: walking speed by direction, "
+      "m/s</text>\n",
+      report.robotType);
+  svg += spokesAndRings(static_cast<int>(rings)) + speedCurve(report.fromStand, scale, kFromStand) +
+         speedCurve(report.steady, scale, kSteady);
+  svg += drawLegend({{"steady", kSteady, false}, {"first 3 s from a stand", kFromStand, false}}, 14.0, 44.0);
   svg += fmt::format(
-      "<text x='10' y='525' fill='#2060c0'>steady</text><text x='80' y='525' fill='#e08020'>first 3 s"
-      "</text><text x='180' y='525'>turning {:.0f} deg/s, {} falls in {} walks</text>\n</svg>\n",
-      toDegrees(report.turn.mean), report.falls, report.trials);
-  return svg;
+      "<text x='14' y='592'>forward {:.2f} m/s steady, {:.2f} over ten seconds from a stand; turning {:.0f} "
+      "deg/s; {} falls in {} walks</text>\n",
+      report.steady[kForward].mean, report.forwardTenSeconds.mean, toDegrees(report.turn.mean), report.falls,
+      report.trials);
+  return svgPicture(600.0, 604.0, svg);
 }
 
 std::string walkTraceSvg(const TrialSetup& setup, const Pose2& velocity, double seconds) {
@@ -175,41 +202,32 @@ std::string walkTraceSvg(const TrialSetup& setup, const Pose2& velocity, double 
   trial.settle(Pose2());
   const motion::WalkVelocity request{velocity};
   trial.run(request, 3.0);
-  Curve comX{"desired", "#2060c0", {}};
-  Curve comXMeasured{"measured", "#c03020", {}};
-  Curve comY = comX;
-  Curve comYMeasured = comXMeasured;
-  Curve leftX{"left", "#2060c0", {}};
-  Curve rightX{"right", "#c03020", {}};
-  Curve leftZ = leftX;
-  Curve rightZ = rightX;
-  Curve pitch{"pitch", "#2060c0", {}};
-  Curve roll{"roll", "#c03020", {}};
-  const int cycles = static_cast<int>(seconds / kCycleTime);
-  for (int i = 0; i < cycles; ++i) {
+  WalkCourse walk;
+  for (int i = 0; i < static_cast<int>(seconds / kCycleTime); ++i) {
     trial.step(request);
-    const motion::WalkTrace& trace = trial.motion().walk().engine().trace();
-    comX.values.push_back(trace.p_SComDesired.x());
-    comXMeasured.values.push_back(trace.p_SComMeasured.x());
-    comY.values.push_back(trace.p_SComDesired.y());
-    comYMeasured.values.push_back(trace.p_SComMeasured.y());
-    leftX.values.push_back(trace.feet[0].translation().x());
-    rightX.values.push_back(trace.feet[1].translation().x());
-    leftZ.values.push_back(trace.feet[0].translation().z());
-    rightZ.values.push_back(trace.feet[1].translation().z());
-    pitch.values.push_back(toDegrees(trial.belief().body.pitch));
-    roll.values.push_back(toDegrees(trial.belief().body.roll));
+    walk.add(trial);
   }
-  std::string svg =
-      "<svg xmlns='http://www.w3.org/2000/svg' width='880' height='920' font-family='sans-serif' "
-      "font-size='11'>\n"
-      "<rect width='880' height='920' fill='white'/>\n";
-  svg += panel("centre of mass ahead of the stance foot, m", {comX, comXMeasured}, 30, kCycleTime);
-  svg += panel("centre of mass left of the stance foot, m", {comY, comYMeasured}, 210, kCycleTime);
-  svg += panel("soles ahead of the torso, m", {leftX, rightX}, 390, kCycleTime);
-  svg += panel("soles above the torso, m", {leftZ, rightZ}, 570, kCycleTime);
-  svg += panel("torso tilt, degrees", {pitch, roll}, 750, kCycleTime);
-  return svg + "</svg>\n";
+  const std::array<Plot, 5> plots = {
+      timePlot("centre of mass ahead of the stance foot", "m", walk.time, {"desired", walk.desired[0]},
+               {"measured", walk.measured[0]}),
+      timePlot("centre of mass left of the stance foot", "m", walk.time, {"desired", walk.desired[1]},
+               {"measured", walk.measured[1]}),
+      timePlot("soles ahead of the torso", "m", walk.time, {"left", walk.ahead[0]}, {"right", walk.ahead[1]}),
+      timePlot("soles above the torso", "m", walk.time, {"left", walk.height[0]}, {"right", walk.height[1]}),
+      timePlot("torso's tilt", "deg", walk.time, {"pitch, forward", walk.pitch},
+               {"roll, to the right", walk.roll})};
+  std::string svg = fmt::format(
+      "<text x='14' y='22' font-size='15' font-weight='bold'>robot type {}: {:.1f} s of walking, 3 s after "
+      "the begin</text>\n<text x='560' y='22'>asked for {:.1f} m/s ahead, {:.1f} m/s to the left, {:.0f} "
+      "deg/s</text>\n",
+      setup.robotType, seconds, velocity.translation.x(), velocity.translation.y(),
+      toDegrees(velocity.rotation));
+  double top = 34.0;
+  for (const Plot& plot : plots) {
+    svg += drawPlot(plot, {kPlotMargin.left, top + kPlotMargin.top, 800.0, 120.0});
+    top += 120.0 + kPlotMargin.top + kPlotMargin.bottom;
+  }
+  return svgPicture(kPlotMargin.left + 800.0 + kPlotMargin.right, top + 6.0, svg);
 }
 
 }  // namespace nonet::lab

@@ -183,47 +183,4 @@ FidelityResult replay(const Recording& recording, const WorldSettings& settings)
   return result;
 }
 
-std::string drawFidelity(const FidelityResult& result) {
-  constexpr double kWidth = 720.0;
-  constexpr double kHeight = 320.0;
-  constexpr double kLeft = 70.0;
-  constexpr double kTop = 40.0;
-  constexpr double kLowest = 1e-7;  // m, the recordings' last digit is 1e-6
-  constexpr double kDecades = 8.0;
-  const double cycles = static_cast<double>(std::max<std::size_t>(result.cycles.size(), 2) - 1);
-  const auto x = [&](double k) { return kLeft + kWidth * k / cycles; };
-  const auto y = [&](double error) {
-    const double decade = std::log10(std::max(error, kLowest) / kLowest);
-    return kTop + kHeight * (1.0 - std::min(decade, kDecades) / kDecades);
-  };
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" "
-      "font-family=\"sans-serif\" "
-      "font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<text x=\"{}\" y=\"20\" "
-      "font-size=\"14\">{}: position error, m (bodies blue, ball orange)</text>\n",
-      kLeft + kWidth + 20, kTop + kHeight + 40, kLeft, result.scenario);
-  for (double level = 1e-7; level < 11.0; level *= 10.0) {
-    const bool limit = level > 0.9e-4 && level < 1.1e-2;
-    svg += fmt::format(
-        "<line x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\"/><text x=\"{4}\" "
-        "y=\"{5:.1f}\" "
-        "text-anchor=\"end\">{6:.0e}</text>\n",
-        kLeft, kLeft + kWidth, y(level), limit ? "#c33" : "#ddd", kLeft - 6, y(level) + 4, level);
-  }
-  for (int second = 0; second <= cycles * kCycleTime; ++second) {
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{} s</text>\n",
-                       x(second / kCycleTime), kTop + kHeight + 18, second);
-  }
-  const auto curve = [&](double CycleError::*member, std::string_view colour) {
-    svg += fmt::format("<polyline fill=\"none\" stroke=\"{}\" points=\"", colour);
-    for (std::size_t k = 0; k < result.cycles.size(); ++k) {
-      svg += fmt::format("{:.1f},{:.1f} ", x(static_cast<double>(k)), y(result.cycles[k].*member));
-    }
-    svg += "\"/>\n";
-  };
-  curve(&CycleError::ball, "#e80");
-  curve(&CycleError::bodies, "#26c");
-  return svg + "</svg>\n";
-}
-
 }  // namespace nonet::sim

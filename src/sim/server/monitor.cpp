@@ -290,7 +290,8 @@ void MonitorStream::writeBody(const AgentInfo& agent, const model::BodySpec& bod
   }
 }
 
-MonitorLog::MonitorLog(const Simulation& simulation, const std::string& path) : stream_(simulation) {
+MonitorLog::MonitorLog(const Simulation& simulation, const std::string& path, int cyclesPerMessage)
+    : stream_(simulation), cyclesPerMessage_(cyclesPerMessage) {
   if (!path.ends_with(".log")) {
     file_ = std::make_unique<protocol::CompressedFile>(path);
     return;
@@ -300,10 +301,9 @@ MonitorLog::MonitorLog(const Simulation& simulation, const std::string& path) : 
 }
 
 void MonitorLog::cycle() {
-  constexpr int kCyclesPerMessage = 10;  // 0.2 s
-  constexpr int kMessagesPerFull = 15;   // 3 s
+  constexpr int kMessagesPerFull = 15;  // 3 s in the server's log
   if (--cyclesToNext_ > 0) return;
-  cyclesToNext_ = kCyclesPerMessage;
+  cyclesToNext_ = cyclesPerMessage_;
   write(stream_.next(messagesSinceFull_ >= kMessagesPerFull));
   write("\n");
   messagesSinceFull_ = stream_.lastWasFull() ? 1 : messagesSinceFull_ + 1;

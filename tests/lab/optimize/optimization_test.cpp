@@ -183,6 +183,14 @@ TEST_F(RunFolder, WritesAReportWithACurvePerParameter) {
   const std::string html = bytes(writeOptimizationReport(root_ + "/run", ""));
   for (const std::string& key : run.space().keys()) EXPECT_NE(html.find(key), std::string::npos) << key;
   EXPECT_EQ(html.find("nan"), std::string::npos);
+  for (const char* text : {">Fitness<", ">generation<", ">fitness, higher is better<", ">best candidate<",
+                           ">mean of the candidates<", ">incumbent<", ">log10 of sigma<", "&plusmn;"})
+    EXPECT_NE(html.find(text), std::string::npos) << text;
+  // A band for each of best, incumbent and every parameter.
+  std::size_t bands = 0;
+  for (std::size_t at = html.find("<polygon"); at != std::string::npos; at = html.find("<polygon", at + 1))
+    ++bands;
+  EXPECT_EQ(bands, run.space().keys().size() + 2);
 }
 
 TEST(Configuration, SurvivesItsFile) {

@@ -114,6 +114,10 @@ TEST(LocalizationReport, EveryVisionMessageOfALogCounts) {
   const std::string svg = report.toSvg();
   EXPECT_EQ(svg.substr(0, 4), "<svg");
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  for (const char* text : {">truth, with the time in seconds<", ">belief<", ">start<", ">end<", ">own goal<",
+                           ">error of the position (dotted: 95 % lie below 0.00", ">error of the heading (",
+                           ">m<", ">deg<", ">time since the first message of the map, s<"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
 }  // namespace

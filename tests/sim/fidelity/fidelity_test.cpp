@@ -109,6 +109,8 @@ TEST(FidelityDrawing, ShowsBothCurves) {
   EXPECT_NE(svg.find("<svg"), std::string::npos);
   EXPECT_EQ(std::count(svg.begin(), svg.end(), '<') > 10, true);
   EXPECT_NE(svg.find("polyline"), svg.rfind("polyline"));
+  for (const char* text : {">time, s<", ">position error, m<", ">0.1 mm<", ">1 mm<", ">1 cm<", ">ball<"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
 }  // namespace

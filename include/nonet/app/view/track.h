@@ -73,7 +73,7 @@ class Track {
   std::array<bool, kSlots> down_{};
   std::optional<Vector2> ballBefore_;
   Vector2 ballVelocity_ = Vector2::Zero();
-  std::size_t framesSinceKick_ = 0;
+  std::size_t framesSinceKick_ = 1'000'000;  // there was none
 };
 
 /// All shapes of the five robot types for the browser: bodies with parent, offset, anchor, axis and joint.

@@ -47,11 +47,13 @@ class LocalizationReport {
   /// "coverage95", "localized_share"}
   nlohmann::ordered_json toJson() const;
   std::string toText() const;
-  /// Map of the field with the track (blue) and the truth (red).
+  /// Map of the field with the truth (red) and the belief (blue), start and times; the errors over time
+  /// below.
   std::string toSvg() const;
 
  private:
   struct Frame {
+    double time = 0.0;                         // of the server, s
     Vector3 believed = Vector3::Zero();        // p_FC, m
     Vector3 truth = Vector3::Zero();           // m
     double believedHeading = 0.0;              // rad
@@ -60,8 +62,9 @@ class LocalizationReport {
     bool rounded = false;                      // the truth is printed with two decimals
     bool localized = false;
 
-    double headingError() const;  // rad
-    bool inside() const;          // the truth lies in the stated 95 % region
+    double positionError() const;  // m
+    double headingError() const;   // rad
+    bool inside() const;           // the truth lies in the stated 95 % region
   };
   void record(const world::WorldState& world, const Vector3& p_FC, double heading, bool rounded);
 

@@ -35,6 +35,7 @@ struct WalkReport {
   std::array<int, kWalkDirections> fallsByDirection{};
   Estimate turn;           // rad/s, both senses together
   Estimate odometryError;  // share of the distance walked forward
+  int robotType = 0;
   int falls = 0;
   int trials = 0;  // walks in all
   CourseSummary course;

@@ -74,12 +74,13 @@ class MonitorStream {
   } sent_;
 };
 
-/// A sparkmonitor.log: one message per line, every 0.2 s, a full one at least every 3 s and at each change of
-/// the scene. Compressed with zstd, but plain if the name ends in ".log": other programs read those. Throws
-/// std::runtime_error naming the file if it cannot be opened.
+/// A sparkmonitor.log: one message per line, every 0.2 s as the server's, a full one at least every 15
+/// messages and at each change of the scene. Compressed with zstd, but plain if the name ends in ".log":
+/// other programs read those. Throws std::runtime_error naming the file if it cannot be opened.
 class MonitorLog {
  public:
-  MonitorLog(const Simulation& simulation, const std::string& path);
+  /// `cyclesPerMessage`: fewer for what is over in a second.
+  MonitorLog(const Simulation& simulation, const std::string& path, int cyclesPerMessage = 10);
   /// Call once after every cycle.
   void cycle();
 
@@ -89,6 +90,7 @@ class MonitorLog {
 
   MonitorStream stream_;
   std::variant<std::ofstream, std::unique_ptr<protocol::CompressedFile>> file_;
+  int cyclesPerMessage_ = 10;
   int cyclesToNext_ = 0;
   int messagesSinceFull_ = 0;
 };
