@@ -42,6 +42,11 @@ KickHead readKickHead(SkillReader& reader) {
       reader.expect("..");
       head.longest = reader.positive(Unit::Metre);
       if (head.longest < head.shortest) reader.fail("the distances are the wrong way round");
+    } else if (reader.accept("flies")) {
+      head.rises = reader.positive(Unit::Metre);
+      reader.expect("..");
+      head.falls = reader.positive(Unit::Metre);
+      if (head.falls < head.rises) reader.fail("the begin and the end of the flight are the wrong way round");
     } else if (reader.accept("contact")) {
       head.contact = reader.positive(Unit::Second);
     } else if (reader.accept("room")) {
@@ -53,8 +58,8 @@ KickHead readKickHead(SkillReader& reader) {
       head.types = readTypes(reader);
     } else {
       reader.fail(
-          fmt::format("'{}' does not belong into the head of a kick (ball direction distance contact room "
-                      "from types)",
+          fmt::format("'{}' does not belong into the head of a kick (ball direction distance flies contact "
+                      "room from types)",
                       reader.peek().text));
     }
   }

@@ -111,7 +111,8 @@ double barred(const world::WorldState& world, const BallTargetParameters& p, dou
   return most;
 }
 
-double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest) {
+double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest,
+                 const motion::KickHead& kick) {
   const Vector2 way = to - from;
   const double squared = std::max(way.squaredNorm(), 1e-9);
   double width = widest;
@@ -119,6 +120,8 @@ double laneWidth(const world::WorldState& world, const Vector2& from, const Vect
     if (!player.known) continue;
     const Vector2 offset = player.X_FP.translation - from;
     const double along = std::clamp(offset.dot(way) / squared, 0.0, 1.0);
+    const double distance = along * std::sqrt(squared);
+    if (distance > kick.rises && distance < kick.falls) continue;
     width = std::min(width, (offset - along * way).norm());
   }
   return width;

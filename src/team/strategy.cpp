@@ -19,6 +19,7 @@ constexpr std::array kStrategy = {
     StrategyEntry{"await ball", awaitBall},
     StrategyEntry{"receive", receive},
     StrategyEntry{"go to ball", goToBall},
+    StrategyEntry{"shoot", shoot},
     StrategyEntry{"kick", kick},
     StrategyEntry{"dribble", dribble},
     StrategyEntry{"go behind ball", goBehindBall},

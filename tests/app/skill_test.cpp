@@ -131,6 +131,7 @@ class SkillPlay : public SkillCommand {
       "  wait 0.1s\n"
       "  call back\n"
       "}\n";
+  const std::string kickFromStand = NONET_TEST_DATA "/skills/kick_stand.skl";
   const std::string back = "skill back { move over 0.3s { right.shoulderYaw 10deg left.elbow -40deg } }\n";
 };
 
@@ -182,12 +183,13 @@ TEST_F(SkillPlay, MirrorsIt) {
   EXPECT_NEAR(json["watched_s"].get<double>(), 1.5, 1e-9);
 }
 
-// The learned kick sends the ball where its head says, with either foot; a ball beside the way stays there.
+// A learned kick from a stand sends the ball where its head says, with either foot; one beside the way stays
+// there.
 TEST_F(SkillPlay, KicksTheBallThatLiesInItsPlace) {
   for (const std::vector<std::string>& side : {std::vector<std::string>{}, {"--mirror"}}) {
     std::vector<std::string> options = {"--json", "--type", "4", "--monitor", folder.file("kick.mon")};
     options.insert(options.end(), side.begin(), side.end());
-    const auto [code, output] = play("kick_power", options);
+    const auto [code, output] = play(kickFromStand, options);
     ASSERT_EQ(code, 0) << output;
     const nlohmann::json kick = jsonOf(output)["kick"];
     EXPECT_TRUE(kick["contact"].get<bool>());
@@ -202,7 +204,7 @@ TEST_F(SkillPlay, KicksTheBallThatLiesInItsPlace) {
     EXPECT_NEAR(static_cast<double>(event->frame) * 0.02, kick["contact_s"].get<double>(), 0.041);
   }
   const auto [code, output] =
-      play("kick_power", {"--json", "--type", "4", "--ball", "0.2,0.6", "--seconds", "1.5"});
+      play(kickFromStand, {"--json", "--type", "4", "--ball", "0.2,0.6", "--seconds", "1.5"});
   ASSERT_EQ(code, 0) << output;
   EXPECT_FALSE(jsonOf(output)["kick"]["contact"].get<bool>());
 }

@@ -66,8 +66,8 @@ TEST(SkillLanguage, ExpressionsUseParametersAndPrecedence) {
 
 TEST(SkillLanguage, KicksSayWhatTheyAre) {
   const Skill skill = parseOne(
-      "parameter x = 0.2m kick { ball (x, -1cm) within (2cm, 3cm) direction 45deg distance 3m .. 8m contact "
-      "0.3s "
+      "parameter x = 0.2m kick { ball (x, -1cm) within (2cm, 3cm) direction 45deg distance 3m .. 8m flies "
+      "1.5m .. 5m contact 0.3s "
       "room 0.5m from walk types 0 4 }");
   ASSERT_TRUE(skill.kick.has_value());
   EXPECT_TRUE(skill.kick->p_RBall.isApprox(Vector2(0.2, -0.01)));
@@ -75,6 +75,8 @@ TEST(SkillLanguage, KicksSayWhatTheyAre) {
   EXPECT_DOUBLE_EQ(skill.kick->direction, toRadians(45.0));
   EXPECT_DOUBLE_EQ(skill.kick->shortest, 3.0);
   EXPECT_DOUBLE_EQ(skill.kick->longest, 8.0);
+  EXPECT_DOUBLE_EQ(skill.kick->rises, 1.5);
+  EXPECT_DOUBLE_EQ(skill.kick->falls, 5.0);
   EXPECT_DOUBLE_EQ(skill.kick->contact, 0.3);
   EXPECT_DOUBLE_EQ(skill.kick->room, 0.5);
   EXPECT_TRUE(skill.kick->fromWalk);

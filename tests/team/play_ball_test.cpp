@@ -94,9 +94,9 @@ TEST(PlayBall, ComesToItsKickAlsoWhenSmallStepsLeadElsewhere) {
 }
 
 // In its place behind a ball on the middle line, with one opponent on the field: does it ask for a kick?
-bool kicksAtTheGoal(const BallHandlingParameters& parameters, double ballX, const Vector2& opponent) {
+bool kicksAtTheGoal(const TeamParameters& parameters, double ballX, const Vector2& opponent) {
   Scene scene;
-  scene.parameters.ball = parameters;
+  scene.parameters = parameters;
   scene.stand(Pose2(ballX - 0.25, 0.0, 0.0));
   scene.putBall({ballX, 0.0});
   Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
@@ -106,22 +106,53 @@ bool kicksAtTheGoal(const BallHandlingParameters& parameters, double ballX, cons
 // An opponent beside the ball forbids a kick, but not a shot with a free way.
 TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
   const auto kicks = [](double ballX, const Vector2& opponent, double shotDistance) {
-    BallHandlingParameters parameters;
-    parameters.shotDistance = shotDistance;
+    TeamParameters parameters;
+    parameters.shot.distance = shotDistance;
     return kicksAtTheGoal(parameters, ballX, opponent);
   };
   EXPECT_FALSE(kicks(10.0, {10.0, 0.8}, 0.0));
   EXPECT_TRUE(kicks(10.0, {10.0, 0.8}, 7.0));
-  EXPECT_FALSE(kicks(5.0, {5.0, 0.8}, 7.0)) << "too far from the goal";
+  EXPECT_FALSE(kicks(5.0, {5.0, 0.8}, 20.0)) << "farther from the goal than the ball goes";
   EXPECT_FALSE(kicks(10.0, {10.0, 0.3}, 7.0)) << "no room";
-  EXPECT_FALSE(kicks(10.0, {13.0, 0.1}, 7.0)) << "somebody is in the way";
+}
+
+// The oracle: which of the places between the posts a straight line reaches past everybody.
+TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
+  world::WorldState world;
+  world.ball.p_FB = Vector3(10.0, 0.0, 0.042);
+  motion::KickOption low;
+  low.name = "low";
+  low.head.shortest = 2.0;
+  low.head.longest = 8.0;
+  motion::KickOption high = low;
+  high.name = "high";
+  high.head.shortest = 4.5;
+  high.head.longest = 12.0;
+  high.head.rises = 1.0;
+  high.head.falls = 4.5;
+  const auto shoots = [&](double ballX, const Vector2& opponent, const motion::KickOption& kick) {
+    world.ball.p_FB.x() = ballX;
+    Scene::put(world.opponents[4], Pose2(opponent, kPi));
+    return bestShot(world, std::array{kick}, {}).has_value();
+  };
+  const Vector2 away(0.0, 9.0);
+  EXPECT_TRUE(shoots(10.0, away, low));
+  EXPECT_TRUE(shoots(10.0, away, high));
+  EXPECT_FALSE(shoots(11.0, away, high)) << "over the bar";
+  EXPECT_FALSE(shoots(7.0, away, low)) << "too far";
+  EXPECT_TRUE(shoots(7.0, away, high));
+  // A wall of three across the way.
+  Scene::put(world.opponents[5], Pose2(12.0, 0.5, kPi));
+  Scene::put(world.opponents[6], Pose2(12.0, -0.5, kPi));
+  EXPECT_FALSE(shoots(10.0, {12.0, 0.0}, low));
+  EXPECT_TRUE(shoots(10.0, {12.0, 0.0}, high)) << "it flies over them";
 }
 
 // Nothing but the place where a kick of 0.9 x 7 m ends is different.
 TEST(PlayBall, KicksOnlyToWhereOneOfUsIsFirst) {
   const auto kicks = [](double ballX, const Vector2& opponent, double lead) {
-    BallHandlingParameters parameters;
-    parameters.kickLead = lead;
+    TeamParameters parameters;
+    parameters.ball.kickLead = lead;
     return kicksAtTheGoal(parameters, ballX, opponent);
   };
   EXPECT_FALSE(kicks(-5.0, {1.3, 1.0}, 0.0)) << "it waits there";
@@ -159,6 +190,7 @@ TEST(PlayBall, DoesNotPushABallOutBesideTheGoal) {
 TEST(PlayBall, KicksNothingOutOfTheField) {
   const auto kicks = [](const Vector2& ball, const Vector2& target) {
     Scene scene;
+    scene.parameters.shot.distance = 0.0;
     const double direction = directionOf(target - ball);
     scene.stand(Pose2(ball - 0.25 * unitVector(direction), direction));
     scene.putBall(ball);

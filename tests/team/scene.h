@@ -58,7 +58,7 @@ struct Scene {
   motion::MotionRequest handleBall(const Vector2& p_FTarget, KickUse use) const {
     Situation situation = assess(world, parameters, motion);
     situation.play = playTowards(situation, p_FTarget, use);
-    for (const auto& behavior : {kick, dribble, goBehindBall})
+    for (const auto& behavior : {shoot, kick, dribble, goBehindBall})
       if (const auto action = behavior(situation)) return action->motion;
     return motion::Stand{};
   }

@@ -64,6 +64,8 @@ struct KickHead {
   double turn = 0.0;                    // how far to either side of that it can send the ball, rad
   double shortest = 0.0;                // distances that it serves, m
   double longest = 0.0;
+  double rises = 0.0;        // m from where it lay to where the ball flies above robots
+  double falls = 0.0;        // and to where it comes down again; as far: it stays low
   double contact = 0.0;      // s from the begin of the skill to the foot's contact with the ball
   double room = 0.0;         // m that no opponent may be nearer to the ball
   std::uint32_t types = 31;  // bit per robot type

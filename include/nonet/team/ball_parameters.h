@@ -140,6 +140,50 @@ struct BallTargetParameters {
   }
 };
 
+/// Kicks at the goal (shot.cpp).
+struct ShotParameters {
+  double distance = 12.0;
+  double room = 0.4;
+  double lane = 0.25;
+  double widest = 0.7;
+  double spread = 0.06;
+  double hits = 0.6;
+  double reach = 0.85;
+  double postMargin = 0.15;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    using namespace config;
+    visit({"distance", Unit::Metre, {0, 30}, search(0, 14), "Shoot from this near to the goal; 0: never"},
+          self.distance);
+    visit({"room",
+           Unit::Metre,
+           {0, 10},
+           search(0.2, 1.8),
+           "Shoot only when no opponent is nearer to the ball; a share of it (ball.kickPress) once in place"},
+          self.room);
+    visit({"lane", Unit::Metre, {0, 2}, search(0.1, 0.8), "Least distance of opponents from the ball's way"},
+          self.lane);
+    visit({"widest", Unit::Metre, {0, 5}, fixed, "A lane that is wider than this is as good as free"},
+          self.widest);
+    visit({"spread",
+           Unit::Radian,
+           {0.01, 1},
+           fixed,
+           "Standard deviation of the direction of kicks (kick-report)"},
+          self.spread);
+    visit({"hits",
+           Unit::None,
+           {0, 1},
+           search(0.3, 0.9),
+           "Least probability that the ball crosses the line between the posts if nobody stops it"},
+          self.hits);
+    visit({"reach", Unit::None, {0, 1}, fixed, "Share of a kick's distance in which the ball is still fast"},
+          self.reach);
+    visit({"postMargin", Unit::Metre, {0, 1}, fixed, "Aim this far inside the posts"}, self.postMargin);
+  }
+};
+
 /// How the player on the ball goes behind it, dribbles and kicks (behaviors/).
 struct BallHandlingParameters {
   double behindBall = 0.18;
@@ -155,8 +199,6 @@ struct BallHandlingParameters {
   double handleDistance = 0.9;
   double waitBehind = 0.35;
   double kickPress = 0.4;
-  double shotDistance = 0.0;
-  double shotOpponentDistance = 0.4;
   double kickLaneLength = 3.0;
   double kickRolling = 0.3;
   double kickBehind = 0.08;
@@ -234,16 +276,6 @@ struct BallHandlingParameters {
            fixed,
            "Kick: share of kickOpponentDistance that holds once in place"},
           self.kickPress);
-    visit({"shotDistance",
-           Unit::Metre,
-           {0, 20},
-           search(0, 10),
-           "Kick: this near to the goal with a free way to it, opponents may be as near to the ball as "
-           "shotOpponentDistance; 0: no such shots"},
-          self.shotDistance);
-    visit(
-        {"shotOpponentDistance", Unit::Metre, {0, 10}, search(0.2, 1.8), "Kick: the room that a shot needs"},
-        self.shotOpponentDistance);
     visit({"kickLaneLength",
            Unit::Metre,
            {0.1, 20},

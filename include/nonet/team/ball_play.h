@@ -1,9 +1,11 @@
 // The ball as seen by the one who plays it: where it should go, and how the robot stands to it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "nonet/motion/kick_catalogue.h"
 #include "nonet/team/action.h"
 #include "nonet/team/parameters.h"
 #include "nonet/world/world_state.h"
@@ -63,6 +65,17 @@ bool rollsOut(const world::WorldState& world, const BallTargetParameters& parame
 double barred(const world::WorldState& world, const BallTargetParameters& parameters, double direction);
 
 /// How much of the way is free of opponents: the distance of the nearest one from it, at most `widest`, m.
-double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest);
+/// Those that the kick's ball flies over do not count.
+double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest,
+                 const motion::KickHead& kick = {});
+
+/// The place in the goal, and the kick for it, that most likely ends there. Nothing if none may: too far, too
+/// near for the ball to be low again, somebody in the way.
+struct Shot {
+  Vector2 p_FTarget = Vector2::Zero();
+  std::string_view kick;
+};
+std::optional<Shot> bestShot(const world::WorldState& world, std::span<const motion::KickOption> kicks,
+                             const ShotParameters& parameters);
 
 }  // namespace nonet::team

@@ -29,6 +29,8 @@ std::optional<Action> awaitBall(const Situation& situation);
 std::optional<Action> receive(const Situation& situation);
 /// One's turn, from afar: to a place behind the ball as it will lie then.
 std::optional<Action> goToBall(const Situation& situation);
+/// One's turn, near, the goal can be hit: the last steps for the kick that does it, and the kick.
+std::optional<Action> shoot(const Situation& situation);
 /// One's turn, near: the last steps to the place for a kick, and the kick.
 std::optional<Action> kick(const Situation& situation);
 /// One's turn, behind the ball: runs through it.

@@ -204,6 +204,7 @@ struct TeamParameters {
   FormationParameters formation;
   BallTargetParameters target;
   BallHandlingParameters ball;
+  ShotParameters shot;
   DribbleParameters dribble;
   ReceiveParameters receive;
   ChoiceParameters choice;
@@ -232,6 +233,7 @@ struct TeamParameters {
     visit.group("formation", self.formation);
     visit.group("target", self.target);
     visit.group("ball", self.ball);
+    visit.group("shot", self.shot);
     visit.group("dribble", self.dribble);
     visit.group("receive", self.receive);
     visit.group("choice", self.choice);

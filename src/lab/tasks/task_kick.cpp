@@ -20,7 +20,9 @@ constexpr int kKicks = 4;           // a trial: four bearings
 constexpr double kPenalty = -1.0;   // m
 constexpr double kPerSecond = 1.2;  // m/s
 constexpr double kStraight = toRadians(10.0);
-constexpr double kRolling = 0.3;  // m/s
+constexpr double kRolling = 0.3;   // m/s
+constexpr double kNearest = 0.3;   // m from the ball, where the approach begins
+constexpr double kFarthest = 1.5;  // m
 
 class KickTask final : public Task {
  public:
@@ -49,6 +51,7 @@ class KickTask final : public Task {
       scene.kick = name_;
       scene.bearing = kickBearing(first + 3 * i);
       scene.rolling = i % 2 == 0 ? 0.0 : kRolling;
+      scene.start = random.uniform(kNearest, kFarthest);
       const Kick kick = kickOnce(agent, server, scene, random.next());
       const bool failed = kick.fell || kick.missed() || std::abs(kick.direction()) > kStraight;
       const double gained = kick.forward - std::abs(kick.aside) - kPerSecond * kick.time;

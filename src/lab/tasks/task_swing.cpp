@@ -22,7 +22,7 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kStarts = 240;        // that are stored: fewer are learned by heart
+constexpr int kStarts = 320;        // that are stored: fewer are learned by heart
 constexpr int kSwings = 8;          // a trial
 constexpr double kPenalty = -1.0;   // m
 constexpr double kPerSecond = 1.2;  // m/s
@@ -32,7 +32,10 @@ constexpr double kPerLean = 2.0;       // m/rad
 constexpr double kLastsUpright = 1.5;  // s after contact: who falls later is nearer to standing
 constexpr double kSpread = 0.5;        // share of the standard deviation
 constexpr double kRolling = 0.3;       // m/s
-constexpr std::uint64_t kSeed = 26;    // of the starts
+// m from the ball: where the approach begins decides in which step the kick does.
+constexpr double kNearest = 0.3;
+constexpr double kFarthest = 1.5;
+constexpr std::uint64_t kSeed = 26;  // of the starts
 
 using Starts = std::vector<KickStart>;
 
@@ -47,9 +50,11 @@ Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
     KickScene scene;
     scene.kick = kick;
     scene.bearing = kickBearing(i);
-    scene.rolling = i % 2 == 0 ? 0.0 : kRolling;
-    const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
-    if (auto start = kickStart(agent, sim::Settings{}, scene, seed)) starts.push_back(std::move(*start));
+    scene.rolling = i % 3 == 0 ? kRolling : 0.0;
+    Random random = seeds.fork(static_cast<std::uint64_t>(i));
+    scene.start = random.uniform(kNearest, kFarthest);
+    if (auto start = kickStart(agent, sim::Settings{}, scene, random.next()))
+      starts.push_back(std::move(*start));
   }
   if (starts.empty()) throw std::runtime_error(fmt::format("no robot of this type comes to {}", kick));
   return starts;

@@ -20,17 +20,6 @@ bool betweenPosts(const Situation& s, const Vector2& crossing) {
   return std::abs(crossing.y()) < 0.5 * s.world.field.goalWidth;
 }
 
-// Near enough to the goal, and nobody in the way.
-bool mayShoot(const Situation& s) {
-  const BallHandlingParameters& p = s.parameters.ball;
-  const Vector2 goal(0.5 * s.world.field.length, 0.0);
-  if ((goal - s.ball()).norm() > p.shotDistance || s.play->p_FTarget.x() < goal.x()) return false;
-  if (s.nearestOpponent < p.shotOpponentDistance) return false;
-  const Vector2 crossing = goalCrossing(s);
-  return betweenPosts(s, crossing) &&
-         laneWidth(s.world, s.ball(), crossing, std::numeric_limits<double>::infinity()) > p.kickLane;
-}
-
 // Where the longest kick towards the target comes to rest, own field frame.
 Vector2 kickEnd(const Situation& s) {
   double longest = 0.0;
@@ -59,7 +48,6 @@ bool mayKick(const Situation& s, bool there) {
   const KickUse use = s.play->use;
   if (!p.kick || use == KickUse::Never) return false;
   if (s.world.ball.v_FB.head<2>().norm() > p.kickRolling) return false;
-  if (mayShoot(s)) return true;
   if (use == KickUse::IfFree && !endsInField(s)) return false;
   if (s.nearestOpponent < (there ? p.kickPress : 1.0) * p.kickOpponentDistance) return false;
   if (use == KickUse::Clear || there) return true;
@@ -71,29 +59,50 @@ bool mayKick(const Situation& s, bool there) {
 }
 
 // Near enough, and behind the ball, for motion to take the last steps.
-bool isBehind(const Situation& s) {
-  const BallPlay& play = *s.play;
+bool isBehind(const Situation& s, const BallPlay& play) {
   const BallHandlingParameters& p = s.parameters.ball;
   return play.behind > p.kickBehind && std::abs(play.direction) < p.kickApproach &&
          std::abs(play.besides) < play.behind + p.kickBesides;
 }
 
-}  // namespace
+bool isThere(const Situation& s) {
+  return s.motion.askedForKick() && s.motion.kick.inPlace;
+}
 
-std::optional<Action> kick(const Situation& s) {
-  if (!s.play || s.motion.kicks.empty()) return std::nullopt;
-  const bool there = s.motion.askedForKick() && s.motion.kick.inPlace;
-  if (!mayKick(s, there) || !(there || isBehind(s))) return std::nullopt;
-  const BallPlay& play = *s.play;
+Action kickAction(const Situation& s, const BallPlay& play, const char* detail) {
   motion::KickTo request;
   request.ball = play.ball;
   request.target = play.target;
   request.ballVelocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
   request.room = s.nearestOpponent;
   request.kick.assign(play.kick);
-  Action action(request, there ? "in place" : "line up");
+  Action action(request, detail);
   action.reason.candidates = play.candidates;
   return action;
+}
+
+}  // namespace
+
+std::optional<Action> shoot(const Situation& s) {
+  const ShotParameters& p = s.parameters.shot;
+  if (!s.play || s.play->use == KickUse::Never || s.phase() != world::Phase::PlayOn) return std::nullopt;
+  if (!s.parameters.ball.kick || s.world.ball.v_FB.head<2>().norm() > s.parameters.ball.kickRolling)
+    return std::nullopt;
+  const bool there = isThere(s);
+  if (s.nearestOpponent < (there ? s.parameters.ball.kickPress : 1.0) * p.room) return std::nullopt;
+  const std::optional<Shot> shot = bestShot(s.world, s.motion.kicks, p);
+  if (!shot) return std::nullopt;
+  BallPlay play = playTowards(s, shot->p_FTarget, s.play->use);
+  play.kick = shot->kick;
+  if (!there && !isBehind(s, play)) return std::nullopt;
+  return kickAction(s, play, there ? "in place" : "line up");
+}
+
+std::optional<Action> kick(const Situation& s) {
+  if (!s.play || s.motion.kicks.empty()) return std::nullopt;
+  const bool there = isThere(s);
+  if (!mayKick(s, there) || !(there || isBehind(s, *s.play))) return std::nullopt;
+  return kickAction(s, *s.play, there ? "in place" : "line up");
 }
 
 }  // namespace nonet::team
