@@ -1,7 +1,6 @@
 // contest: duels for a ball that lies between two robots (lab/trial/ball_trial.h), against the same robot as
 // the data folder has it. A duel is worth 1 if the ball comes 2 m towards the other goal first, 0 if towards
 // the own one, and a fall costs 0.3: whoever lies is missed in the next one.
-#include "nonet/agent/agent_setup.h"
 #include "nonet/lab/trial/ball_trial.h"
 #include "nonet/math/random.h"
 
@@ -25,9 +24,7 @@ class ContestTask final : public Task {
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
     const agent::AgentConfig agent = agentOf(parameters, settings);
-    agent::AgentChoice choice;
-    choice.robotType = settings.robotType;
-    const agent::AgentConfig opponent = agent::makeAgentConfig(choice, settings.dataFolder);
+    const agent::AgentConfig opponent = dataAgent(settings, settings.robotType);
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(9);
     double won = 0.0, falls = 0.0;

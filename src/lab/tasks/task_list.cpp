@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "nonet/agent/agent_setup.h"
 #include "nonet/config/parameters.h"
 
 #include "lab/tasks/tasks.h"
@@ -29,6 +30,7 @@ std::span<const Task* const> registeredTasks() {
       &dribbleTask(),
       &receiveTask(),
       &contestTask(),
+      &attackTask(),
       &quadraticTask(),
   };
   return tasks;
@@ -64,6 +66,12 @@ agent::AgentConfig agentOf(const agent::AgentParameters& parameters, const TaskS
   agent.parameters = parameters;
   agent.skillFolder = settings.dataFolder + "/skills";
   return agent;
+}
+
+agent::AgentConfig dataAgent(const TaskSettings& settings, int robotType) {
+  agent::AgentChoice choice;
+  choice.robotType = robotType;
+  return agent::makeAgentConfig(choice, settings.dataFolder);
 }
 
 sim::Settings serverOf(const TaskSettings& settings) {

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "nonet/agent/agent_setup.h"
 #include "nonet/lab/trial/swing_trial.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
@@ -41,9 +40,7 @@ using Starts = std::vector<KickStart>;
 
 // How robots begin this kick with the values that the data folder has for it.
 Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
-  agent::AgentChoice choice;
-  choice.robotType = settings.robotType;
-  const agent::AgentConfig agent = agent::makeAgentConfig(choice, settings.dataFolder);
+  const agent::AgentConfig agent = dataAgent(settings, settings.robotType);
   Starts starts;
   const Random seeds(kSeed);
   for (int i = 0; i < kStarts; ++i) {

@@ -30,6 +30,7 @@ const Task& approachTask();
 const Task& dribbleTask();
 const Task& receiveTask();
 const Task& contestTask();
+const Task& attackTask();
 const Task& blockTask();
 const Task& saveTask();
 const Task& quadraticTask();
@@ -39,6 +40,8 @@ TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t se
 
 /// The whole agent of a game's task, and the server it plays on.
 agent::AgentConfig agentOf(const agent::AgentParameters& parameters, const TaskSettings& settings);
+/// The same of this type as the data folder has it: opponents, and robots that begin a stored start.
+agent::AgentConfig dataAgent(const TaskSettings& settings, int robotType);
 sim::Settings serverOf(const TaskSettings& settings);
 
 /// Where the search for a walk set begins: at `walk`, unless the set was learned before.

@@ -8,6 +8,9 @@
 
 #include "nonet/agent/agent_setup.h"
 #include "nonet/lab/reports/ball_report.h"
+#include "nonet/lab/trial/game_trial.h"
+#include "nonet/math/direction.h"
+#include "nonet/math/random.h"
 
 namespace nonet::lab {
 namespace {
@@ -93,6 +96,62 @@ TEST(BallTrial, OneThatCannotWalkLosesTheDuel) {
   double won = 0.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) won += duelOnce(agentOfType(0), lame, quick(), seed).won;
   EXPECT_GE(won, 2.5);
+}
+
+double goalsIn(const agent::AgentConfig& agent) {
+  constexpr int count = 10;
+  Defence defence{agentOfType(0), agentOfType(2)};
+  for (motion::WalkParameters* set :
+       {&defence.back.parameters.motion.sets.goToTarget, &defence.back.parameters.motion.sets.positioning})
+    set->gait.maxStepX *= 0.6;  // as fast as the teams of others
+  double goals = 0.0;
+  for (int seed = 1; seed <= count; ++seed) {
+    const Attack trial = attackOnce(agent, defence, quick(), static_cast<std::uint64_t>(seed));
+    EXPECT_LE((trial.goal ? 1 : 0) + (trial.out ? 1 : 0) + (trial.lost ? 1 : 0), 1);
+    EXPECT_GE(trial.worth(), trial.goal ? 1.0 : 0.0);
+    goals += trial.goal ? 1.0 / count : 0.0;
+  }
+  return goals;
+}
+
+// The same attacks with and without kicks at the goal.
+TEST(BallTrial, ShotsEndMoreAttacksInTheGoal) {
+  agent::AgentConfig without = agentOfType(2);
+  without.parameters.team.shot.distance = 0.0;
+  const double shots = goalsIn(agentOfType(2));
+  EXPECT_GE(shots, 0.4);  // 0.64 of 200
+  EXPECT_GT(shots, goalsIn(without));
+}
+
+// How many of ten robots that run to a ball at which an opponent stands are taken off for charging.
+int chargesAtTheBall(double speed) {
+  int charges = 0;
+  Random random(7);
+  for (int i = 0; i < 10; ++i) {
+    agent::AgentConfig runner = agentOfType(2);
+    runner.unum = 7;
+    runner.parameters.team.charging.speed = speed;
+    const Vector2 ball(random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0));
+    const double from = random.uniform(-0.5, 0.5);
+    const double beside = random.uniform(-1.0, 1.0);
+    GameSituation situation;
+    situation.ball = ball;
+    situation.players = {{runner, false, Pose2(ball - 1.5 * unitVector(from), from), {}},
+                         {agentOfType(0), true, Pose2(ball - 0.25 * unitVector(from + beside), from + beside),
+                          [](const world::WorldState& /*world*/, const motion::MotionState& /*motion*/) {
+                            return team::Action();
+                          }}};
+    GameTrial trial(quick(), situation, random.next());
+    trial.run(4.0);
+    charges += trial.fouls(0, sim::FoulType::Charging) > 0 ? 1 : 0;
+  }
+  return charges;
+}
+
+TEST(BallTrial, WhoSlowsDownBeforeAnOpponentIsNotTakenOff) {
+  const int charges = chargesAtTheBall(team::TeamParameters{}.charging.speed);
+  EXPECT_LE(charges, 2);
+  EXPECT_GE(chargesAtTheBall(0.0), charges + 3);
 }
 
 TEST(BallTrial, SameSeedSameTrial) {
