@@ -111,7 +111,7 @@ struct DribbleParameters {
 
 /// Stopping a ball that rolls to the robot.
 struct ReceiveParameters {
-  bool use = false;
+  bool use = true;
   double speed = 0.4;
   double within = 3.0;
   double pace = 0.5;
