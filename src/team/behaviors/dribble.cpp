@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nonet/math/direction.h"
-#include "nonet/team/ball_play.h"
 #include "nonet/team/behaviors.h"
+
+#include "team/behaviors/push.h"
 
 namespace nonet::team {
 
@@ -52,10 +52,7 @@ std::optional<Action> runThrough(const Situation& s) {
   const BallHandlingParameters& p = s.parameters.ball;
   const bool aligned = play.behind > p.alignedBehind && std::abs(play.direction) < p.alignedAngle &&
                        std::abs(play.besides) < p.alignedAside;
-  if (!aligned) return std::nullopt;
-  // It goes where the torso pushes it, whatever the target.
-  const double pushed = directionOf(s.ball() - s.world.self.X_FR.translation);
-  if (rollsOut(s.world, s.parameters.target, pushed)) return std::nullopt;
+  if (!aligned || pushRollsOut(s)) return std::nullopt;
   const Pose2 through(play.ball + p.dribbleThrough * play.along, play.direction);
   return Action(motion::WalkTo{through, false}, "through the ball");
 }

@@ -3,14 +3,15 @@
 #include "nonet/math/direction.h"
 #include "nonet/team/behaviors.h"
 
+#include "team/behaviors/push.h"
+
 namespace nonet::team {
 
 std::optional<Action> goBehindBall(const Situation& s) {
   if (!s.play) return std::nullopt;
   const BallPlay& play = *s.play;
   const BallHandlingParameters& p = s.parameters.ball;
-  const double pushed = directionOf(s.ball() - s.world.self.X_FR.translation);
-  const bool careful = play.behind > 0.0 && rollsOut(s.world, s.parameters.target, pushed);
+  const bool careful = play.behind > 0.0 && pushRollsOut(s);
   Vector2 next = play.ball - (careful ? p.standOff : p.behindBall) * play.along;
   // Not behind the ball yet: go around it, on the side on which the robot already is. `behind` of the place
   // itself is behindBall, so a share of it tells the two cases apart without flicker.

@@ -28,30 +28,43 @@ Vector2 kickEnd(const Situation& s) {
   return s.ball() + s.parameters.choice.length * longest * way.normalized();
 }
 
-bool endsInField(const Situation& s) {
-  const Vector2 end = kickEnd(s);
+bool beyondGoalLine(const Situation& s, const Vector2& end) {
+  return end.x() > 0.5 * s.world.field.length;
+}
+
+bool endsInGoal(const Situation& s, const Vector2& end) {
+  return beyondGoalLine(s, end) && betweenPosts(s, goalCrossing(s));
+}
+
+bool endsInField(const Situation& s, const Vector2& end) {
   if (std::abs(end.y()) > 0.5 * s.world.field.width) return false;
-  return end.x() < 0.5 * s.world.field.length || betweenPosts(s, goalCrossing(s));
+  return !beyondGoalLine(s, end) || endsInGoal(s, end);
 }
 
 // One of us is first where the longest kick towards the target comes to rest. A ball that crosses the line
 // between the posts need not be caught.
-bool staysOurs(const Situation& s) {
+bool staysOurs(const Situation& s, const Vector2& end) {
+  if (endsInGoal(s, end)) return true;
+  return teammatesTime(s, end) + s.parameters.ball.kickLead < opponentsTime(s, end);
+}
+
+// Any kick at all: it is wanted, the ball lies, and nobody is nearer to it than `room`, or a share of that
+// once the robot is in its place.
+bool canKick(const Situation& s, bool there, double room) {
   const BallHandlingParameters& p = s.parameters.ball;
-  const Vector2 end = kickEnd(s);
-  if (end.x() > 0.5 * s.world.field.length && betweenPosts(s, goalCrossing(s))) return true;
-  return teammatesTime(s, end) + p.kickLead < opponentsTime(s, end);
+  return p.kick && s.play->use != KickUse::Never && s.world.ball.v_FB.head<2>().norm() <= p.kickRolling &&
+         s.nearestOpponent >= (there ? p.kickPress : 1.0) * room;
 }
 
 bool mayKick(const Situation& s, bool there) {
   const BallHandlingParameters& p = s.parameters.ball;
   const KickUse use = s.play->use;
-  if (!p.kick || use == KickUse::Never) return false;
-  if (s.world.ball.v_FB.head<2>().norm() > p.kickRolling) return false;
-  if (use == KickUse::IfFree && !endsInField(s)) return false;
-  if (s.nearestOpponent < (there ? p.kickPress : 1.0) * p.kickOpponentDistance) return false;
-  if (use == KickUse::Clear || there) return true;
-  if (!staysOurs(s)) return false;
+  if (!canKick(s, there, p.kickOpponentDistance)) return false;
+  if (use == KickUse::Clear) return true;
+  const Vector2 restsAt = kickEnd(s);
+  if (!endsInField(s, restsAt)) return false;
+  if (there) return true;
+  if (!staysOurs(s, restsAt)) return false;
   const Vector2 from = s.ball();
   const Vector2 way = s.play->p_FTarget - from;
   const Vector2 end = from + std::min(1.0, p.kickLaneLength / std::max(way.norm(), 1e-6)) * way;
@@ -85,11 +98,9 @@ Action kickAction(const Situation& s, const BallPlay& play, const char* detail) 
 
 std::optional<Action> shoot(const Situation& s) {
   const ShotParameters& p = s.parameters.shot;
-  if (!s.play || s.play->use == KickUse::Never || s.phase() != world::Phase::PlayOn) return std::nullopt;
-  if (!s.parameters.ball.kick || s.world.ball.v_FB.head<2>().norm() > s.parameters.ball.kickRolling)
-    return std::nullopt;
+  if (!s.play || s.phase() != world::Phase::PlayOn) return std::nullopt;
   const bool there = isThere(s);
-  if (s.nearestOpponent < (there ? s.parameters.ball.kickPress : 1.0) * p.room) return std::nullopt;
+  if (!canKick(s, there, p.room)) return std::nullopt;
   const std::optional<Shot> shot = bestShot(s.world, s.motion.kicks, p);
   if (!shot) return std::nullopt;
   BallPlay play = playTowards(s, shot->p_FTarget, s.play->use);
