@@ -125,28 +125,26 @@ Plot jointPlot(const SkillTrial& trial, const SkillTrialSettings& settings, Join
   return plot;
 }
 
-Plot torsoPlot(const SkillTrial& trial) {
+// A measure that cannot be negative, over the whole trial.
+template <class Value>
+Plot measurePlot(const SkillTrial& trial, const char* title, const char* yLabel, const Value& value) {
   Plot plot;
-  plot.title = "torso above the ground";
+  plot.title = title;
   plot.xLabel = "time, s";
-  plot.yLabel = "height, m";
-  plot.curves = {
-      curveOf(trial, kDone, trial.cycles.back().time, [](const SkillCycle& c) { return c.torsoHeight; })};
+  plot.yLabel = yLabel;
+  plot.curves = {curveOf(trial, kDone, trial.cycles.back().time, value)};
   plot.marks = marksOf(trial);
   plot.low = 0.0;
   return plot;
 }
 
+Plot torsoPlot(const SkillTrial& trial) {
+  return measurePlot(trial, "torso above the ground", "height, m",
+                     [](const SkillCycle& c) { return c.torsoHeight; });
+}
+
 Plot ballPlot(const SkillTrial& trial) {
-  Plot plot;
-  plot.title = "ball";
-  plot.xLabel = "time, s";
-  plot.yLabel = "speed, m/s";
-  plot.curves = {
-      curveOf(trial, kDone, trial.cycles.back().time, [](const SkillCycle& c) { return c.ballSpeed; })};
-  plot.marks = marksOf(trial);
-  plot.low = 0.0;
-  return plot;
+  return measurePlot(trial, "ball", "speed, m/s", [](const SkillCycle& c) { return c.ballSpeed; });
 }
 
 }  // namespace
