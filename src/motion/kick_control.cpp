@@ -60,10 +60,11 @@ const KickOption* KickControl::choose(const KickTo& request) const {
   return best;
 }
 
-// Small steps may lead nowhere: the least speed keeps a robot from stopping short of its place for ever.
-WalkVelocity KickControl::lastSteps(const Way& way) const {
+// Small steps may lead nowhere: the least speed keeps a robot from stopping short of its place for ever. The
+// place itself moves with the ball, `along`.
+WalkVelocity KickControl::lastSteps(const Way& way, const Vector2& along) const {
   const KickParameters& p = parameters_;
-  const Vector2 speed = (p.gain + p.leastSpeed / std::max(way.place.norm(), kNear)) * way.place;
+  const Vector2 speed = along + (p.gain + p.leastSpeed / std::max(way.place.norm(), kNear)) * way.place;
   WalkVelocity walk;
   walk.velocity.translation = speed * std::min(1.0, p.mostSpeed / std::max(speed.norm(), 1e-9));
   walk.velocity.rotation = p.gain * way.turn;
@@ -98,9 +99,12 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
   if (chosen_ == nullptr) return step;
   if (chosen_ != before) comesToStand_ = false;
   const KickHead& head = chosen_->head;
-  step.walk = lastSteps(wayTo(*chosen_, after(p.coast, request, walk)));
-  // Where the ball will be when the kick begins, and by how much it still rolls until contact.
   const double delay = CommandHistory::kDelay * kCycleTime;
+  // The steps follow a ball that still rolls. In full they would run into it.
+  KickTo ahead = after(p.coast, request, walk);
+  ahead.ball += p.follow * (p.coast + delay + head.contact) * request.ballVelocity;
+  step.walk = lastSteps(wayTo(*chosen_, ahead), p.follow * request.ballVelocity);
+  // Where the ball will be when the kick begins, and by how much it still rolls until contact.
   KickTo then = after(head.fromWalk ? delay : 0.0, request, walk);
   then.ball += (delay + head.contact) * request.ballVelocity;
   const Way way = wayTo(*chosen_, then);

@@ -25,7 +25,26 @@ std::uint32_t readTypes(SkillReader& reader) {
   return mask;
 }
 
+// "flies 0m at 0m within 0m" for a ball that rolls: the numbers are parameters, which differ between types.
+void readFlight(SkillReader& reader, KickHead& head) {
+  head.apex = reader.value(Unit::Metre);
+  reader.expect("at");
+  head.apexAt = reader.value(Unit::Metre);
+  reader.expect("within");
+  head.apexSpread = reader.value(Unit::Metre);
+  const bool rolls = head.apex == 0.0 && head.apexAt == 0.0;
+  if (!rolls && (head.apex <= 0.0 || head.apexAt <= 0.0 || head.apexSpread <= 0.0))
+    reader.fail("height, place and deviation of a flight must be more than zero");
+}
+
 }  // namespace
+
+double KickHead::fliesBelow(double height, double distance) const {
+  if (distance >= 2.0 * apexAt) return 1.0;
+  const double off = distance / apexAt - 1.0;
+  const double mean = apex * (1.0 - off * off);
+  return 0.5 * std::erfc((mean - height) / (std::sqrt(2.0) * apexSpread));
+}
 
 KickHead readKickHead(SkillReader& reader) {
   KickHead head;
@@ -43,10 +62,7 @@ KickHead readKickHead(SkillReader& reader) {
       head.longest = reader.positive(Unit::Metre);
       if (head.longest < head.shortest) reader.fail("the distances are the wrong way round");
     } else if (reader.accept("flies")) {
-      head.rises = reader.positive(Unit::Metre);
-      reader.expect("..");
-      head.falls = reader.positive(Unit::Metre);
-      if (head.falls < head.rises) reader.fail("the begin and the end of the flight are the wrong way round");
+      readFlight(reader, head);
     } else if (reader.accept("contact")) {
       head.contact = reader.positive(Unit::Second);
     } else if (reader.accept("room")) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kDirections = 12;  // to either side of straight ahead
 constexpr double kStep = toRadians(10.0);
+constexpr int kAllDirections = 36;       // of that step, all around
 constexpr double kSlowRoll = 3.0;        // s until a kicked ball is slow enough to be taken
 constexpr double kSameKick = 0.2;        // rad
 constexpr double kAtBall = 0.15;         // m
@@ -146,16 +147,38 @@ double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const Choi
   return p.worthMost * std::exp(-(goal - p_F).norm() / p.worthScale);
 }
 
-double kickValue(const Situation& s, double direction, double length) {
+double kickValue(const Situation& s, double direction, double length, bool mayScore) {
   const ChoiceParameters& p = s.parameters.choice;
   const double toLine =
       (0.5 * s.world.field.length + kGoalLineMargin - s.ball().x()) / std::max(std::cos(direction), 1e-3);
-  const bool reaches = std::cos(direction) > 0.1 && toLine < p.shotLength / p.length * length;
+  const bool reaches = mayScore && std::cos(direction) > 0.1 && toLine < p.shotLength / p.length * length;
   const double scores = reaches ? hitsGoal(s.world, direction, p.spread) : 0.0;
   const double flown = scores > 0.0 ? std::min(toLine, length) : length;
   const Block block = blockOf(s, flown * unitVector(direction));
   const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unitVector(direction));
   return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, 0.3);
+}
+
+BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
+  const ChoiceParameters& p = s.parameters.choice;
+  BallChoice best{false, s.setPlay->p_FTarget, valueAt(s, s.setPlay->p_FReceiver, p.shortPass), {}};
+  if (record != nullptr) record->clear();
+  if (record != nullptr) record->add(s.setPlay->p_FReceiver, best.value);
+  const std::optional<double> present = presentKick(s);
+  for (const motion::KickOption& kick : s.motion.kicks) {
+    if (kick.foot != model::Side::Left || kick.head.room > s.nearestOpponent) continue;
+    const double length = p.length * kick.head.longest;
+    for (int i = 0; i < kAllDirections; ++i) {
+      const double direction = wrapAngle(kStep * i);
+      const Vector2 target = s.ball() + length * unitVector(direction);
+      double value = kickValue(s, direction, length, false);
+      if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
+      if (record != nullptr) record->add(target, value);
+      if (value <= best.value) continue;
+      best = {true, target, value, kick.name};
+    }
+  }
+  return best;
 }
 
 BallChoice chooseAction(const Situation& s, Candidates* record) {

@@ -14,6 +14,9 @@ constexpr int kPlacesAside = 3;  // in the goal, on either side of the middle
 constexpr int kTurns = 4;        // around an opponent, to either side
 constexpr double kTurnStep = toRadians(15);
 
+constexpr double kRobotHeight = 0.62;  // m, of the Nao and the ball over it
+constexpr double kSurelyOver = 0.7;    // probability with which a ball must fly over a robot
+
 // Where the ball should end up if nobody were on the field.
 Vector2 goalTarget(const world::WorldState& world, const BallTargetParameters& p) {
   const double goalX = 0.5 * world.field.length;
@@ -47,9 +50,9 @@ Vector2 openGoal(const world::WorldState& world, const BallTargetParameters& p, 
   return best;
 }
 
-// The direction nearest to the straight one that no opponent bars.
+// The direction nearest to the straight one that no opponent bars. Who has begun to go around one goes on.
 Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParameters& p, const Vector2& target,
-                        Candidates* record) {
+                        const std::optional<double>& present, Candidates* record) {
   const Vector2 ball = world.ball.p_FB.head<2>();
   const double straight = directionOf(target - ball);
   double best = straight;
@@ -59,8 +62,9 @@ Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParamete
     const Vector2 end = ball + unitVector(straight + turn);
     const bool out = rollsOut(world, p, straight + turn);
     const double facing = angleDifference(straight + turn, world.self.X_FR.rotation);
+    const bool kept = present && std::abs(angleDifference(straight + turn, *present)) < kTurnStep;
     const double score = std::cos(turn) - p.barCost * barred(world, p, straight + turn) -
-                         p.facingCost * facing * facing - (out ? 1.0 : 0.0);
+                         p.facingCost * facing * facing - (out ? 1.0 : 0.0) + (kept ? p.keep : 0.0);
     if (record != nullptr) record->add(end, score);
     if (score <= bestScore) continue;
     bestScore = score;
@@ -121,20 +125,21 @@ double laneWidth(const world::WorldState& world, const Vector2& from, const Vect
     const Vector2 offset = player.X_FP.translation - from;
     const double along = std::clamp(offset.dot(way) / squared, 0.0, 1.0);
     const double distance = along * std::sqrt(squared);
-    if (distance > kick.rises && distance < kick.falls) continue;
+    if (1.0 - kick.fliesBelow(kRobotHeight, distance) > kSurelyOver) continue;
     width = std::min(width, (offset - along * way).norm());
   }
   return width;
 }
 
-Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& p, Candidates* record) {
+Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& p,
+                   const std::optional<double>& present, Candidates* record) {
   const Vector2 ball = world.ball.p_FB.head<2>();
   const Vector2 toGoal = Vector2(0.5 * world.field.length, 0.0) - ball;
   const bool inFront = std::abs(toGoal.y()) < toGoal.x() + 0.5 * world.field.goalWidth - p.atGoalInside;
   if (toGoal.norm() < p.atGoal && inFront) return openGoal(world, p, record);
   Vector2 target = goalTarget(world, p);
   if (barred(world, p, directionOf(target - ball)) == 0.0) return target;
-  return aroundOpponents(world, p, target, record);
+  return aroundOpponents(world, p, target, present, record);
 }
 
 }  // namespace nonet::team

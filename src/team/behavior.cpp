@@ -4,22 +4,13 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/team/behaviors.h"
 #include "nonet/team/charging.h"
 #include "nonet/team/strategy.h"
 
 namespace nonet::team {
 
 namespace {
-
-motion::HeadRequest lookAtBall(const world::WorldState& world) {
-  motion::HeadRequest head;
-  const bool recently = world.ball.known && world.time - world.ball.lastSeen < 2.0;
-  const bool lost = !world.self.localized && world.time - world.self.lastCorrection > 1.0;
-  if (!recently || lost) return head;
-  head.kind = motion::HeadRequest::Kind::Point;
-  head.p_RP = Vector3(world.ball.p_RB.x(), world.ball.p_RB.y(), world.ball.p_FB.z() - world.self.height);
-  return head;
-}
 
 // Along the way, for a moment, if the ball lies elsewhere and may be left unseen.
 std::optional<motion::HeadRequest> glance(const Situation& s, const Action& action) {
@@ -45,6 +36,16 @@ Tidings tidingsOf(const Situation& situation) {
 }
 
 }  // namespace
+
+motion::HeadRequest lookAtBall(const world::WorldState& world) {
+  motion::HeadRequest head;
+  const bool recently = world.ball.known && world.time - world.ball.lastSeen < 2.0;
+  const bool lost = !world.self.localized && world.time - world.self.lastCorrection > 1.0;
+  if (!recently || lost) return head;
+  head.kind = motion::HeadRequest::Kind::Point;
+  head.p_RP = Vector3(world.ball.p_RB.x(), world.ball.p_RB.y(), world.ball.p_FB.z() - world.self.height);
+  return head;
+}
 
 Behavior::Behavior(const TeamParameters& parameters, Challenge challenge)
     : tracker_(parameters), radio_(parameters.radio), challenge_(challenge) {}

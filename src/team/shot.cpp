@@ -11,9 +11,12 @@ namespace {
 
 constexpr int kPlacesAside = 3;  // in the goal, on either side of the middle
 
-// The ball crosses the line fast, and low enough.
-bool reaches(const motion::KickHead& kick, double distance, const ShotParameters& p) {
-  return distance >= kick.shortest && distance < p.reach * kick.longest;
+// The probability that the ball crosses the line fast, between the posts and below the bar.
+double scores(const world::WorldState& world, const motion::KickHead& kick, const Vector2& way,
+              const ShotParameters& p) {
+  const double distance = way.norm();
+  if (distance >= p.reach * kick.longest) return 0.0;
+  return hitsGoal(world, directionOf(way), p.spread) * kick.fliesBelow(world.field.goalHeight, distance);
 }
 
 }  // namespace
@@ -28,10 +31,10 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   double most = 0.0;
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
-    const double hits = hitsGoal(world, directionOf(place - ball), p.spread);
-    if (hits < p.hits) continue;
     for (const motion::KickOption& kick : kicks) {
-      if (kick.foot != model::Side::Left || !reaches(kick.head, (place - ball).norm(), p)) continue;
+      if (kick.foot != model::Side::Left) continue;
+      const double hits = scores(world, kick.head, place - ball, p);
+      if (hits < p.hits) continue;
       const double lane = laneWidth(world, ball, place, p.widest, kick.head);
       if (lane < p.lane || hits * lane <= most) continue;
       most = hits * lane;

@@ -48,6 +48,22 @@ bool receiverReady(const Situation& s) {
   });
 }
 
+// A kick to where one of us is first, if that is worth more than the pass to the one who stands next to it.
+BallPlay setPiece(const Situation& s, Candidates* record) {
+  if (s.phase() != world::Phase::OwnKickOff) {
+    const BallChoice choice = chooseSetPiece(s, record);
+    if (choice.kick) {
+      BallPlay play = playTowards(s, choice.p_FTarget, KickUse::Clear);
+      play.kick = choice.with;
+      if (record != nullptr) play.candidates = record->all();
+      return play;
+    }
+  }
+  const double waited = s.world.time - s.world.game.phaseSince;
+  const bool wait = waited < s.parameters.waitForReceiver && !receiverReady(s);
+  return playTowards(s, s.setPlay->p_FTarget, KickUse::Never, wait);
+}
+
 }  // namespace
 
 bool Situation::waitsForKickOff() const {
@@ -85,10 +101,11 @@ BallPlay playTowards(const Situation& s, const Vector2& p_FTarget, KickUse use, 
 }
 
 Situation assess(const world::WorldState& world, const TeamParameters& parameters,
-                 const motion::MotionState& motion, Candidates* record) {
+                 const motion::MotionState& motion, const std::optional<double>& present,
+                 Candidates* record) {
   Situation s{world, parameters, motion, BallForecast(world, parameters.pace)};
   if (record != nullptr) record->clear();
-  s.p_FTarget = ballTarget(world, parameters.target, record);
+  s.p_FTarget = ballTarget(world, parameters.target, present, record);
   if (record != nullptr) s.targets = record->all();
   s.nearestOpponent = nearestOpponent(world);
   s.timeToBall.fill(kInfinity);
@@ -115,12 +132,7 @@ std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {
   }
   const bool opponents = world::isOpponentSetPiece(s.phase());
   if (s.role != Role::OnBall || s.goalieClaims || opponents) return std::nullopt;
-  if (s.setPlay) {
-    const double waited = s.world.time - s.world.game.phaseSince;
-    const bool wait = waited < s.parameters.waitForReceiver && !receiverReady(s);
-    const KickUse use = s.phase() == world::Phase::OwnKickOff ? KickUse::Never : KickUse::Clear;
-    return playTowards(s, s.setPlay->p_FTarget, use, wait);
-  }
+  if (s.setPlay) return setPiece(s, record);
   if (!s.mayTouch) return std::nullopt;
   if (s.parameters.variant.clearFirst && s.ball().x() < 0.0)
     return playTowards(s, awayTarget(s), KickUse::Clear);

@@ -1,5 +1,7 @@
 #include "nonet/team/situation_tracker.h"
 
+#include "nonet/math/direction.h"
+
 namespace nonet::team {
 
 SituationTracker::SituationTracker(const TeamParameters& parameters)
@@ -9,7 +11,8 @@ SituationTracker::SituationTracker(const TeamParameters& parameters)
 // kick-off: the others need the votes.
 Situation SituationTracker::update(const world::WorldState& world, const motion::MotionState& motion) {
   touches_.update(world);
-  Situation situation = assess(world, parameters_, motion, recording_ ? &targets_ : nullptr);
+  Situation situation = assess(world, parameters_, motion, direction_, recording_ ? &targets_ : nullptr);
+  direction_ = directionOf(situation.p_FTarget - situation.ball());
   const int banned = touches_.banned();
   voting_.update(situation, banned);
   situation.role = world.game.unum == 1 ? Role::Goalie : voting_.role();

@@ -44,7 +44,7 @@ class KickControl {
   double cost(const KickOption& option, const KickTo& request) const;
   const KickOption* choose(const KickTo& request) const;
   KickTo after(double seconds, const KickTo& request, const WalkEngine& walk) const;
-  WalkVelocity lastSteps(const Way& way) const;
+  WalkVelocity lastSteps(const Way& way, const Vector2& along) const;
   bool within(double share, const Way& way) const;
 
   const KickCatalogue* catalogue_;

@@ -17,6 +17,7 @@ struct KickParameters {
   double stay = 2.0;
   double stopDrift = 0.01;
   double coast = 0.15;
+  double follow = 0.4;
   double gain = 8.0;
   double leastSpeed = 0.1;
   double mostSpeed = 0.8;
@@ -79,6 +80,12 @@ struct KickParameters {
            "How long the present steps go on when the robot is to walk elsewhere: the last steps look ahead "
            "by this"},
           self.coast);
+    visit({"follow",
+           Unit::None,
+           {0, 2},
+           search(0, 1),
+           "Share of the rolling ball's speed, and of its way until contact, that the last steps take along"},
+          self.follow);
     visit({"gain", Unit::Hertz, {0.1, 20}, search(1, 12), "Speed per distance in the last steps"}, self.gain);
     visit({"leastSpeed",
            Unit::MetrePerSecond,

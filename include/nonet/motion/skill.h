@@ -64,14 +64,18 @@ struct KickHead {
   double turn = 0.0;                    // how far to either side of that it can send the ball, rad
   double shortest = 0.0;                // distances that it serves, m
   double longest = 0.0;
-  double rises = 0.0;        // m from where it lay to where the ball flies above robots
-  double falls = 0.0;        // and to where it comes down again; as far: it stays low
+  double apex = 0.0;         // m, height of the flying ball where it is highest, in the median; 0: it rolls
+  double apexAt = 0.0;       // m from where it lay to there
+  double apexSpread = 0.0;   // m, standard deviation of heights
   double contact = 0.0;      // s from the begin of the skill to the foot's contact with the ball
   double room = 0.0;         // m that no opponent may be nearer to the ball
   std::uint32_t types = 31;  // bit per robot type
   bool fromWalk = false;     // begins out of steps; otherwise from a quiet stand
 
   bool serves(int robotType) const { return ((types >> robotType) & 1U) != 0; }
+  /// The probability that the ball is lower than `height` (m) so far (m) from where it lay. Its first flight
+  /// is a parabola; a ball that has landed does not rise so high again.
+  double fliesBelow(double height, double distance) const;
 };
 
 /// Pose of a sole in the torso frame, or relative to the ball (curves "from ball").

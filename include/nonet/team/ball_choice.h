@@ -23,6 +23,10 @@ struct BallChoice {
   std::string_view with;  // name of the kick
 };
 
+/// The best thing to do with an own set piece: the pass to the one who stands next to it, or a kick to where
+/// one of us is first. Nobody can disturb it. Candidates are written to `record` unless it is null.
+BallChoice chooseSetPiece(const Situation& situation, Candidates* record = nullptr);
+
 /// The best thing to do for the one whose turn it is; candidates are written to `record` unless it is null.
 BallChoice chooseAction(const Situation& situation, Candidates* record = nullptr);
 
@@ -36,7 +40,7 @@ double teammatesTime(const Situation& s, const Vector2& p_F);
 double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& parameters);
 
 /// What a kick in this direction (rad, own field frame) that carries `length` metres is worth once it leaves
-/// the foot, as if it came off for certain.
-double kickValue(const Situation& situation, double direction, double length);
+/// the foot, as if it came off for certain. Whether a ball that crosses the goal line counts.
+double kickValue(const Situation& situation, double direction, double length, bool mayScore = true);
 
 }  // namespace nonet::team

@@ -25,6 +25,7 @@ struct BallTargetParameters {
   double barWidth = 0.6;
   double barCost = 0.8;
   double facingCost = 0.05;
+  double keep = 0.2;
   double touchLineMargin = 0.2;
   double rollsOn = 2.0;
   double postMargin = 0.1;
@@ -115,6 +116,12 @@ struct BallTargetParameters {
            search(0, 0.5),
            "Cost of a direction per squared radian that the robot must turn for it"},
           self.facingCost);
+    visit({"keep",
+           Unit::None,
+           {0, 2},
+           search(0, 0.6),
+           "Around an opponent: what another direction must be better by than the present one"},
+          self.keep);
     visit({"touchLineMargin",
            Unit::Metre,
            {0, 2},
@@ -176,7 +183,8 @@ struct ShotParameters {
            Unit::None,
            {0, 1},
            search(0.3, 0.9),
-           "Least probability that the ball crosses the line between the posts if nobody stops it"},
+           "Least probability that the ball crosses the line between the posts and below the bar if nobody "
+           "stops it"},
           self.hits);
     visit({"reach", Unit::None, {0, 1}, fixed, "Share of a kick's distance in which the ball is still fast"},
           self.reach);

@@ -50,9 +50,10 @@ struct BallPlay {
 };
 
 /// Where a dribbled ball should go from its present place: to the goal, around an opponent that stands in
-/// the way. What it weighed is written to `record` unless that is null.
+/// the way. `present`: where it was to go until now, rad, own field frame. What it weighed is written to
+/// `record` unless that is null.
 Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& parameters,
-                   Candidates* record = nullptr);
+                   const std::optional<double>& present = {}, Candidates* record = nullptr);
 
 /// The probability that a ball that is sent this way (rad, own field frame) crosses the goal line between the
 /// posts, with this standard deviation (rad) of its direction; if nobody stops it.

@@ -46,4 +46,7 @@ std::optional<Action> ownSetPiece(const Situation& situation);
 /// Stands in the place of one's role.
 std::optional<Action> support(const Situation& situation);
 
+/// Where the head goes unless a behaviour wants it elsewhere: to the ball, or all about if that is lost.
+motion::HeadRequest lookAtBall(const world::WorldState& world);
+
 }  // namespace nonet::team

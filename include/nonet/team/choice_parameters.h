@@ -27,6 +27,7 @@ struct ChoiceParameters {
   double dribbleLoss = 0.6;
   double out = 0.5;
   double keep = 0.02;
+  double shortPass = 0.85;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -112,6 +113,12 @@ struct ChoiceParameters {
            "Share of the ball's worth that opponents gain by a throw-in or goal kick there"},
           self.out);
     visit({"keep", Unit::None, {0, 1}, fixed, "A kick that is on its way is worth so much more"}, self.keep);
+    visit({"shortPass",
+           Unit::None,
+           {0, 1},
+           search(0.5, 1),
+           "Set pieces: probability that the pass to the one who stands next to the ball arrives"},
+          self.shortPass);
   }
 };
 

@@ -52,10 +52,12 @@ struct Situation {
   bool acts() const { return free() && world.ball.known && world.self.localized; }
 };
 
-/// The part that follows from the world alone. Candidates are written to `record` unless it is null; both it
-/// and the arguments must outlive the situation.
+/// The part that follows from the world alone, and from where the ball was to go until now (rad, own field
+/// frame). Candidates are written to `record` unless it is null; both it and the arguments must outlive the
+/// situation.
 Situation assess(const world::WorldState& world, const TeamParameters& parameters,
-                 const motion::MotionState& motion, Candidates* record = nullptr);
+                 const motion::MotionState& motion, const std::optional<double>& present = {},
+                 Candidates* record = nullptr);
 
 /// The ball is to be played from where it lies towards p_FTarget.
 BallPlay playTowards(const Situation& situation, const Vector2& p_FTarget, KickUse use, bool wait = false);

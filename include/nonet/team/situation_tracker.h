@@ -31,6 +31,7 @@ class SituationTracker {
   TouchWatch touches_;
   Candidates targets_;
   std::optional<BallIntent> intent_;
+  std::optional<double> direction_;  // where the ball was to go in the last cycle, rad, own field frame
   bool recording_ = false;
   bool claims_ = false;              // the goalie goes to the ball
   double lastBeam_ = world::kNever;  // server time, s

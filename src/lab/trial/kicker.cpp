@@ -21,6 +21,7 @@ team::Action Kicker::operator()(const world::WorldState& world, const motion::Mo
     std::optional<team::Action> action = behavior(situation);
     if (!action) continue;
     if (auto* request = std::get_if<motion::KickTo>(&action->motion)) request->kick = kick_;
+    action->head = team::lookAtBall(world);
     return *action;
   }
   return {};
