@@ -58,6 +58,8 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(0.2, 5.0));
   command->add_option("--rolling", settings.rolling, "Fastest speed of the ball at the begin, m/s")
       ->check(CLI::Range(0.0, 3.0));
+  command->add_option("--pushed", settings.pushed, "Speed at which it rolls to the target at the begin, m/s")
+      ->check(CLI::Range(0.0, 3.0));
   command->add_option("--distance", settings.distance, "How far the ball should go, m")
       ->check(CLI::Range(0.5, 25.0));
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
@@ -66,7 +68,8 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(
       "Examples:\n  nonet kick-report --type 4\n  nonet kick-report --kick kick_power --json\n"
-      "  nonet kick-report --kick any --rolling 0.3 --start 1.5 --svg fan_");
+      "  nonet kick-report --kick any --rolling 0.3 --start 1.5 --svg fan_\n"
+      "  nonet kick-report --kick any --pushed 1 --start 0.5  # after the dribbler's own push");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }
 

@@ -138,8 +138,13 @@ double opponentsTime(const Situation& s, const Vector2& p_F) {
 }
 
 double teammatesTime(const Situation& s, const Vector2& p_F) {
-  const std::span<const world::PlayerState> field(s.world.teammates.begin() + 2, s.world.teammates.end());
-  return soonest(field, p_F, s.parameters.choice.ownPace, s.parameters.pace.risingTime);
+  double least = std::numeric_limits<double>::infinity();
+  for (int unum = 2; unum <= world::kTeamSize; ++unum) {
+    if (s.setPlay && unum == s.world.game.unum) continue;  // who takes it must leave it to the others
+    const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
+    least = std::min(least, arrival(mate, p_F, s.parameters.choice.ownPace, s.parameters.pace.risingTime));
+  }
+  return least;
 }
 
 double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& p) {

@@ -116,6 +116,17 @@ TEST_F(Control, ReckonsWithTheBallsRoll) {
   EXPECT_NEAR(now.aim.ball.x(), 0.2, 1e-9);
 }
 
+// With the same place of the ball, the steps go along with it and on to where it rolls.
+TEST_F(Control, TheLastStepsFollowARollingBall) {
+  const auto ahead = [&](double rolling) {
+    KickTo kick = request({0.25, 0.05}, {5.0, 0.0});  // near: below the fastest steps
+    kick.ballVelocity = Vector2(rolling, 0.0);
+    return step(kick, 1.0).walk.velocity.translation.x();
+  };
+  EXPECT_GT(ahead(0.1), ahead(0.0) + 0.4 * 0.1);
+  EXPECT_LT(ahead(-0.1), ahead(0.0) - 0.4 * 0.1);
+}
+
 // A point robot that walks as it is told, with a drift such as small steps have.
 TEST_F(Control, TheLastStepsLeadToTheBeginFromAnywhere) {
   Random random(3);

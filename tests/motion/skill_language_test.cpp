@@ -67,7 +67,7 @@ TEST(SkillLanguage, ExpressionsUseParametersAndPrecedence) {
 TEST(SkillLanguage, KicksSayWhatTheyAre) {
   const Skill skill = parseOne(
       "parameter x = 0.2m kick { ball (x, -1cm) within (2cm, 3cm) direction 45deg distance 3m .. 8m flies "
-      "1.5m .. 5m contact 0.3s "
+      "1.1m at 3m within 0.3m contact 0.3s "
       "room 0.5m from walk types 0 4 }");
   ASSERT_TRUE(skill.kick.has_value());
   EXPECT_TRUE(skill.kick->p_RBall.isApprox(Vector2(0.2, -0.01)));
@@ -75,13 +75,41 @@ TEST(SkillLanguage, KicksSayWhatTheyAre) {
   EXPECT_DOUBLE_EQ(skill.kick->direction, toRadians(45.0));
   EXPECT_DOUBLE_EQ(skill.kick->shortest, 3.0);
   EXPECT_DOUBLE_EQ(skill.kick->longest, 8.0);
-  EXPECT_DOUBLE_EQ(skill.kick->rises, 1.5);
-  EXPECT_DOUBLE_EQ(skill.kick->falls, 5.0);
+  EXPECT_DOUBLE_EQ(skill.kick->apex, 1.1);
+  EXPECT_DOUBLE_EQ(skill.kick->apexAt, 3.0);
+  EXPECT_DOUBLE_EQ(skill.kick->apexSpread, 0.3);
   EXPECT_DOUBLE_EQ(skill.kick->contact, 0.3);
   EXPECT_DOUBLE_EQ(skill.kick->room, 0.5);
   EXPECT_TRUE(skill.kick->fromWalk);
   EXPECT_TRUE(skill.kick->serves(0));
   EXPECT_FALSE(skill.kick->serves(3));
+}
+
+// Against drawn flights: a parabola through where the ball lay, its height disturbed.
+TEST(SkillLanguage, ProbabilityOfALowBallIsThatOfDrawnFlights) {
+  KickHead head;
+  EXPECT_EQ(head.fliesBelow(0.05, 1.0), 1.0) << "it rolls";
+  head.apex = 1.0;
+  head.apexAt = 4.0;
+  head.apexSpread = 0.25;
+  Random random(5);
+  for (const double distance : {0.5, 1.0, 2.0, 4.0, 6.0, 7.5}) {
+    int low = 0;
+    constexpr int kFlights = 20000;
+    for (int i = 0; i < kFlights; ++i) {
+      const double height = 4.0 * head.apex * (distance / 8.0) * (1.0 - distance / 8.0);
+      low += random.normal(height, head.apexSpread) < 0.8 ? 1 : 0;
+    }
+    EXPECT_NEAR(head.fliesBelow(0.8, distance), static_cast<double>(low) / kFlights, 0.02) << distance;
+  }
+  EXPECT_EQ(head.fliesBelow(0.05, 8.5), 1.0) << "it has landed";
+}
+
+TEST(SkillLanguage, AFlightNeedsAHeightAPlaceAndADeviation) {
+  const std::string head = "kick { ball (0.2m, 0) distance 1m..2m contact 0.3s flies ";
+  EXPECT_NO_THROW(parseOne(head + "0m at 0m within 0m }"));
+  for (const char* wrong : {"1m at 0m within 0.2m }", "0m at 1m within 0.2m }", "1m at 2m within 0m }"})
+    EXPECT_THROW(parseOne(head + wrong), std::runtime_error) << wrong;
 }
 
 // Against the same arithmetic by hand, at a place of the ball that no coefficient hides.

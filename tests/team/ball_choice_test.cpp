@@ -70,6 +70,27 @@ TEST_F(Choice, WithoutAKickItDribbles) {
   EXPECT_FALSE(choose().kick);
 }
 
+// The kick carries 0.9 x 7 m: along the touch line to the mate that waits there, if nobody is sooner.
+TEST_F(Choice, SetPiecesGoToWhereOneOfUsIsFirst) {
+  scene.world.game.phase = world::Phase::OwnKickIn;
+  ballAt({2.0, -9.9});
+  Scene::put(scene.world.teammates[6], Pose2(6.5, -5.5, 0.0));
+  const BallChoice free = chooseSetPiece(scene.situation(Role::OnBall));
+  ASSERT_TRUE(free.kick);
+  EXPECT_LT((free.p_FTarget - Vector2(6.5, -5.5)).norm(), 1.5);
+  scene.world.teammates[6].known = false;
+  opponentAt(3, {9.0, 3.0});
+  EXPECT_FALSE(chooseSetPiece(scene.situation(Role::OnBall)).kick) << "the one next to the ball gets it";
+}
+
+// Kick-ins are indirect (server facts 4.5): over the goal line they are lost.
+TEST_F(Choice, SetPiecesAreNoShots) {
+  scene.world.game.phase = world::Phase::OwnFreeKick;
+  ballAt({10.5, 0.0});
+  EXPECT_LT(kickValue(scene.situation(Role::OnBall), 0.0, 6.3, false), 0.0);
+  EXPECT_GT(kickValue(scene.situation(Role::OnBall), 0.0, 6.3), 0.9);
+}
+
 // The share of ball's ways, drawn with the stated spread, that cross the line between the posts.
 TEST_F(Choice, ProbabilityOfAGoalIsThatOfTheDrawnWays) {
   Random random(4);

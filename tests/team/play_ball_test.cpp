@@ -126,10 +126,10 @@ TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
   low.head.longest = 8.0;
   motion::KickOption high = low;
   high.name = "high";
-  high.head.shortest = 4.5;
   high.head.longest = 12.0;
-  high.head.rises = 1.0;
-  high.head.falls = 4.5;
+  high.head.apex = 1.2;
+  high.head.apexAt = 2.8;
+  high.head.apexSpread = 0.2;
   const auto shoots = [&](double ballX, const Vector2& opponent, const motion::KickOption& kick) {
     world.ball.p_FB.x() = ballX;
     Scene::put(world.opponents[4], Pose2(opponent, kPi));
@@ -146,6 +146,26 @@ TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
   Scene::put(world.opponents[6], Pose2(12.0, -0.5, kPi));
   EXPECT_FALSE(shoots(10.0, {12.0, 0.0}, low));
   EXPECT_TRUE(shoots(10.0, {12.0, 0.0}, high)) << "it flies over them";
+}
+
+// An opponent straight ahead leaves both sides alike; who has begun to pass it on one side goes on there,
+// until the other one is better by more than `keep`.
+TEST(PlayBall, GoesAroundAnOpponentOnTheSideWhereItBegan) {
+  world::WorldState world;
+  world.ball.p_FB = Vector3(0.0, 0.0, 0.042);
+  Scene::put(world.opponents[4], Pose2(0.4, 0.0, kPi));
+  const BallTargetParameters p;
+  for (const double side : {-1.0, 1.0}) {
+    const double present = side * toRadians(45.0);
+    const Vector2 kept = ballTarget(world, p, present);
+    EXPECT_GT(side * kept.y(), 0.3);
+    // The opponent takes a step to that side.
+    world.opponents[4].X_FP.translation.y() = side * 0.01;
+    EXPECT_GT(side * ballTarget(world, p, present).y(), 0.3);
+    world.opponents[4].X_FP.translation.y() = side * 0.4;
+    EXPECT_LT(side * ballTarget(world, p, present).y(), 0.3) << "now that side is barred";
+    world.opponents[4].X_FP.translation.y() = 0.0;
+  }
 }
 
 // Nothing but the place where a kick of 0.9 x 7 m ends is different.

@@ -130,8 +130,10 @@ TEST(Strategy, KeepsTheDistanceAtTheOpponentsSetPieces) {
   }
 }
 
+// Who cannot kick has only the pass to the one next to it.
 TEST(Strategy, TheTakerWaitsForTheReceiverButNotForEver) {
   Scene scene;
+  scene.motion.kicks = {};
   scene.world.game.phase = Phase::OwnFreeKick;
   scene.world.game.phaseSince = scene.world.time - 1.0;
   EXPECT_EQ(scene.decideAs(Role::OnBall).reason.behavior, "wait at ball");

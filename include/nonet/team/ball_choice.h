@@ -33,7 +33,7 @@ BallChoice chooseAction(const Situation& situation, Candidates* record = nullptr
 /// s until an opponent can be at p_F; one that lies rises first. Infinite if none is known.
 double opponentsTime(const Situation& situation, const Vector2& p_F);
 
-/// s until one of our field players can be at p_F, likewise.
+/// s until one of our field players can be at p_F, likewise; but for the taker of a set piece.
 double teammatesTime(const Situation& s, const Vector2& p_F);
 
 /// Goals that a ball of ours at p_F is worth.

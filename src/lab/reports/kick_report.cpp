@@ -104,6 +104,7 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
       scene.kick = name == "any" ? "" : name;
       scene.start = settings.start;
       scene.rolling = settings.rolling;
+      scene.pushed = settings.pushed;
       scene.distance = settings.distance;
       scene.bearing = kickBearing(i);
       kicks[static_cast<std::size_t>(i)] =

@@ -42,7 +42,8 @@ KickGame kickGame(const agent::AgentConfig& agent, const KickScene& scene, Rando
   game.situation.players = {{agent, false, Pose2(ball - scene.start * unitVector(from), from), mind}};
   game.situation.ball = ball;
   const double way = random.uniform(-kPi, kPi);
-  game.situation.ballVelocity = scene.rolling * random.uniform(0.0, 1.0) * unitVector(way);
+  game.situation.ballVelocity =
+      scene.rolling * random.uniform(0.0, 1.0) * unitVector(way) + scene.pushed * unitVector(heading);
   return game;
 }
 

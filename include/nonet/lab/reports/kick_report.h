@@ -16,6 +16,7 @@ struct KickReportSettings {
   int trials = 100;          // of each kick
   double start = 0.5;        // m from the ball
   double rolling = 0.0;      // m/s, the fastest that the ball rolls at the begin
+  double pushed = 0.0;       // m/s, how fast it rolls towards the target at the begin
   double distance = 10.0;    // m, how far the ball is wanted to go
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it

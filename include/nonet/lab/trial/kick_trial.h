@@ -16,6 +16,7 @@ struct KickScene {
   double start = 0.5;      // m from the ball, facing it
   double bearing = 0.0;    // rad, from which side the robot comes: 0 = the ball goes straight on
   double rolling = 0.0;    // m/s, the fastest that the ball rolls at the begin, in any direction
+  double pushed = 0.0;     // m/s, and how fast towards where it should go, as after a push of the dribbler
   double distance = 10.0;  // m, how far it should go
   double longest = 10.0;   // s until the contact
 };

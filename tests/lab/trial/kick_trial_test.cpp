@@ -1,0 +1,36 @@
+// Kicks with the whole approach, on the complete simulation: seeded starts and a rate that must be reached.
+#include "nonet/lab/trial/kick_trial.h"
+
+#include <gtest/gtest.h>
+
+#include "nonet/sim/settings/settings.h"
+
+#include "motion/trial_setup.h"
+
+namespace nonet::lab {
+namespace {
+
+// The ball still rolls away from the dribbler that has pushed it. Whoever begins the kick while it lies ahead of
+// its place meets it with the wrong part of the swing.
+TEST(Kicks, ReachABallThatTheRobotHasPushed) {
+  const agent::AgentConfig agent = agentOfType(2);
+  sim::Settings server;
+  server.quickSolver = true;
+  constexpr int kKicks = 24;
+  constexpr double kWeak = 4.0;  // m/s
+  int weak = 0, fell = 0;
+  for (int i = 0; i < kKicks; ++i) {
+    KickScene scene;
+    scene.start = 0.35 + 0.05 * (i % 12);
+    scene.bearing = 0.3 * kickBearing(i);
+    scene.pushed = 0.5 + 0.25 * (i % 5);
+    const Kick kick = kickOnce(agent, server, scene, static_cast<std::uint64_t>(i));
+    weak += kick.ballSpeed < kWeak ? 1 : 0;
+    fell += kick.fell ? 1 : 0;
+  }
+  EXPECT_LE(weak, 2);
+  EXPECT_LE(fell, 2);
+}
+
+}  // namespace
+}  // namespace nonet::lab
