@@ -55,7 +55,7 @@ double first(double ours, double theirs, double spread) {
 // slow. The goalie stays at home.
 double oursAt(const Situation& s, const Vector2& p_F) {
   const ChoiceParameters& p = s.parameters.choice;
-  const double own = std::max(teammatesTime(s, p_F), kSlowRoll);
+  const double own = std::max(teammatesTime(s, p_F), kSlowRoll) + p.late;
   const double theirs = std::max(opponentsTime(s, p_F), kSlowRoll);
   return first(own, theirs, p.arrivalSpread);
 }

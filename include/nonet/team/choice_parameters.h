@@ -28,6 +28,7 @@ struct ChoiceParameters {
   double out = 0.5;
   double keep = 0.02;
   double shortPass = 0.85;
+  double late = 1.0;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -119,6 +120,13 @@ struct ChoiceParameters {
            search(0.5, 1),
            "Set pieces: probability that the pass to the one who stands next to the ball arrives"},
           self.shortPass);
+    visit({"late",
+           Unit::Second,
+           {0, 5},
+           search(0, 2),
+           "Our players come so much later to a kicked ball than reckoned: of the first ten long set pieces "
+           "opponents had seven"},
+          self.late);
   }
 };
 
