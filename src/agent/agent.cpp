@@ -65,6 +65,9 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
 const world::WorldState& Agent::world() const {
   return stages_->robot.world();
 }
+std::vector<Pose2> Agent::particles() const {
+  return stages_->robot.particles();
+}
 team::Role Agent::role() const {
   return stages_->behavior.role();
 }

@@ -39,6 +39,9 @@ void Robot::follow(const motion::JointTargets& targets, protocol::Effectors& eff
 const world::WorldState& Robot::world() const {
   return stages_->worldModel.state();
 }
+std::vector<Pose2> Robot::particles() const {
+  return stages_->worldModel.particles();
+}
 const motion::Motion& Robot::motion() const {
   return stages_->motion;
 }

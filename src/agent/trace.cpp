@@ -1,8 +1,10 @@
 #include "nonet/agent/trace.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -38,15 +40,16 @@ constexpr std::array<const char*, 20> kPhaseNames = {"before kick-off",
                                                      "other"};
 constexpr std::array<const char*, 3> kHeadNames = {"look", "point", "scan"};
 
-// Enough digits for a reader: millimetres, thousandths of a second, hundredths of a degree.
-double rounded(double value, double unit = 1e-3) {
-  return std::round(value / unit) * unit + 0.0;
+// Enough digits for a reader: millimetres, thousandths of a second, hundredths of a degree. Divided by a
+// whole number, so that no digits of rounding follow.
+double rounded(double value, double perUnit = 1e3) {
+  return std::round(value * perUnit) / perUnit + 0.0;
 }
 ordered_json place(const Vector2& p) {
   return {rounded(p.x()), rounded(p.y())};
 }
 ordered_json pose(const Pose2& X) {
-  return {rounded(X.translation.x()), rounded(X.translation.y()), rounded(toDegrees(X.rotation), 0.01)};
+  return {rounded(X.translation.x()), rounded(X.translation.y()), rounded(toDegrees(X.rotation), 1e2)};
 }
 
 // Says what motion is asked to do, all in the field frame, so that a reader need not turn it.
@@ -94,16 +97,30 @@ std::string reasonText(const team::Reason& reason) {
   return fmt::format("{}: {}", reason.behavior, reason.detail);
 }
 
+// Seconds since then; null: never. The ball is known before it was seen where the rules say where it lies.
+ordered_json ageOf(const world::WorldState& world, double time) {
+  if (time <= world::kNever) return nullptr;
+  return rounded(world.time - time);
+}
+
 ordered_json ballOf(const world::WorldState& world) {
   const world::BallState& ball = world.ball;
   if (!ball.known) return nullptr;
   return {{"at", {rounded(ball.p_FB.x()), rounded(ball.p_FB.y()), rounded(ball.p_FB.z())}},
           {"velocity", {rounded(ball.v_FB.x()), rounded(ball.v_FB.y())}},
           {"covariance",
-           {rounded(ball.covariance(0, 0), 1e-6), rounded(ball.covariance(0, 1), 1e-6),
-            rounded(ball.covariance(1, 1), 1e-6)}},
+           {rounded(ball.covariance(0, 0), 1e6), rounded(ball.covariance(0, 1), 1e6),
+            rounded(ball.covariance(1, 1), 1e6)}},
           {"rests", place(world::restPlace({ball.p_FB, ball.v_FB}))},
-          {"seen", rounded(world.time - ball.lastSeen)}};
+          {"seen", ageOf(world, ball.lastSeen)}};
+}
+
+// Centimetres do for a cloud.
+ordered_json particlesOf(const Agent& agent) {
+  ordered_json list = ordered_json::array();
+  for (const Pose2& X_FR : agent.particles())
+    list.push_back({rounded(X_FR.translation.x(), 1e2), rounded(X_FR.translation.y(), 1e2)});
+  return list;
 }
 
 ordered_json playersOf(const world::WorldState& world,
@@ -115,7 +132,7 @@ ordered_json playersOf(const world::WorldState& world,
     list.push_back({{"unum", unum},
                     {"at", place(player.X_FP.translation)},
                     {"sigma", rounded(player.sigma)},
-                    {"seen", rounded(world.time - player.lastSeen)},
+                    {"seen", ageOf(world, player.lastSeen)},
                     {"fallen", player.fallen}});
   }
   return list;
@@ -131,6 +148,22 @@ std::string sigma(const ordered_json& variance) {
 
 std::string at(const ordered_json& place) {
   return fmt::format("({:.2f}, {:.2f})", place[0].get<double>(), place[1].get<double>());
+}
+
+std::string seenText(const ordered_json& age) {
+  return age.is_null() ? "never seen" : fmt::format("seen {:.2f} s ago", age.get<double>());
+}
+
+// How many there are, and within which distance of its pose the robot has nine tenths of them.
+std::string particlesText(const ordered_json& trace) {
+  const Vector2 pose(trace["pose"][0].get<double>(), trace["pose"][1].get<double>());
+  std::vector<double> distances;
+  for (const ordered_json& place : trace["particles"])
+    distances.push_back((Vector2(place[0].get<double>(), place[1].get<double>()) - pose).norm());
+  if (distances.empty()) return "none";
+  std::sort(distances.begin(), distances.end());
+  return fmt::format("{}, nine tenths within {:.2f} m", distances.size(),
+                     distances[distances.size() * 9 / 10]);
 }
 
 std::string requestText(const ordered_json& request) {
@@ -164,9 +197,10 @@ ordered_json traceOf(const Agent& agent) {
       {"pose", pose(self.X_FR)},
       // Of x and y in m^2 (xx, xy, yy), of the heading in deg^2.
       {"covariance",
-       {rounded(covariance(0, 0), 1e-6), rounded(covariance(0, 1), 1e-6), rounded(covariance(1, 1), 1e-6),
-        rounded(toDegrees(toDegrees(covariance(2, 2))), 1e-3)}},
+       {rounded(covariance(0, 0), 1e6), rounded(covariance(0, 1), 1e6), rounded(covariance(1, 1), 1e6),
+        rounded(toDegrees(toDegrees(covariance(2, 2))), 1e3)}},
       {"localized", self.localized},
+      {"particles", particlesOf(agent)},
       {"ball", ballOf(world)},
       {"mates", playersOf(world, world.teammates, world.game.unum)},
       {"opponents", playersOf(world, world.opponents, 0)},
@@ -196,7 +230,7 @@ std::string traceCsv(const ordered_json& trace) {
                                  sigma(covariance[0]), sigma(covariance[2]), sigma(covariance[3]));
   const ordered_json& ball = trace["ball"];
   if (ball.is_null()) return line + ",,,";
-  return line + fmt::format(",{},{},{}", ball["at"][0].dump(), ball["at"][1].dump(), ball["seen"].dump());
+  return line + fmt::format(",{},{},{}", ball["at"][0].dump(), ball["at"][1].dump(), number(ball["seen"]));
 }
 
 std::string traceText(const ordered_json& trace) {
@@ -213,12 +247,13 @@ std::string traceText(const ordered_json& trace) {
       fmt::format("  is at     {} m, heading {:.1f} deg; one sigma {} m, {} m, {} deg{}\n", at(trace["pose"]),
                   trace["pose"][2].get<double>(), sigma(covariance[0]), sigma(covariance[2]),
                   sigma(covariance[3]), trace["localized"].get<bool>() ? "" : "; NOT localized");
+  text += fmt::format("  particles {}\n", particlesText(trace));
   const ordered_json& ball = trace["ball"];
   if (ball.is_null()) {
     text += "  ball      not known\n";
   } else {
-    text += fmt::format("  ball      {} m, moves with {} m/s, will rest at {}; seen {:.2f} s ago\n",
-                        at(ball["at"]), at(ball["velocity"]), at(ball["rests"]), ball["seen"].get<double>());
+    text += fmt::format("  ball      {} m, moves with {} m/s, will rest at {}; {}\n", at(ball["at"]),
+                        at(ball["velocity"]), at(ball["rests"]), seenText(ball["seen"]));
   }
   for (const char* team : {"mates", "opponents"}) {
     text += fmt::format("  {:10}", team);

@@ -6,7 +6,9 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
+#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/ball_report.h"
@@ -37,14 +39,14 @@ int run(const BallReportArguments& arguments) {
   agent::AgentChoice goalie;
   goalie.robotType = 0;
   settings.goalie = agent::makeAgentConfig(goalie, opponentData);
-  settings.progress = [&](const std::string& skill) {
-    fmt::print(stderr, "{}: {} trials\n", skill, settings.trials);
-  };
+  Console console(stderr);
+  settings.progress = console.trials();
   const lab::BallReport report = lab::measureBallSkills(settings);
+  console.end();
   fmt::print("{}", arguments.json ? lab::ballReportJson(report, settings) : lab::ballReportTable(report));
   if (arguments.svg.empty() || report.slaloms.empty()) return 0;
   const std::string path = arguments.svg + "slalom.svg";
-  lab::writeAtomically(path, lab::slalomSvg(report.slaloms));
+  lab::writeAtomically(path, lab::slalomSvg(report.slaloms, settings));
   fmt::print(stderr, "{}\n", path);
   return 0;
 }
@@ -57,15 +59,11 @@ void addBallReportCommand(CLI::App& app, int& exitCode) {
       "Measure seeded ball skills: approach, dribble, slalom, drive, duel, attack, receive, run, stop");
   const auto arguments = std::make_shared<BallReportArguments>();
   lab::BallReportSettings& settings = arguments->settings;
-  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
+  addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--skill", settings.skill, "One of them, or all");
-  command->add_option("--data", arguments->data, "Folder with params/ and skills/");
   command->add_option(
       "--opponent-data", arguments->opponentData,
       "The same for the opponents in duel and attack; without it: that of --data, without --set");
-  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
-      ->check(CLI::ExistingFile);
-  command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");
   command->add_option("--trials", settings.trials, "Trials of each skill")->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", settings.threads, "Threads, 0 = all processors");

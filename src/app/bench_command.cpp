@@ -42,7 +42,9 @@ void addBenchCommand(CLI::App& app, int& exitCode) {
   command->add_option("--threads", *threads, "Threads of the physics; the signature does not depend on them")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command->footer("Times are processor times, so they do not depend on what else the machine does.");
+  command->footer(
+      "Example: nonet bench --threads 2\nTimes are processor times, so they do not depend on what else the "
+      "machine does.");
   command->callback([threads, &exitCode] { exitCode = runBench(*threads); });
 }
 

@@ -21,6 +21,12 @@ void Console::progress(const std::string& line) {
   shown_ = terminal_;
 }
 
+lab::TrialProgress Console::trials() {
+  return [this](const std::string& what, int done, int all) {
+    progress(fmt::format("{}: {} of {}", what, done, all));
+  };
+}
+
 void Console::say(const std::string& line) {
   const std::lock_guard lock(mutex_);
   fmt::print(out_, "{}{}\n", shown_ ? "\r\033[K" : "", line);

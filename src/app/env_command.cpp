@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/lab/env/env.h"
@@ -86,10 +87,10 @@ int run(const EnvArguments& arguments) {
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   if (arguments.list) return listTasks();
   if (arguments.task.empty()) throw std::runtime_error("which environment? nonet env --list names them");
-  lab::EnvSetup setup;
-  setup.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
-  setup.server.quickSolver = arguments.quick;
-  lab::EnvBatch batch(arguments.task, setup, arguments.count, arguments.threads, arguments.choice.seed);
+  lab::EnvSettings settings;
+  settings.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
+  settings.server.quickSolver = arguments.quick;
+  lab::EnvBatch batch(arguments.task, settings, arguments.count, arguments.threads, arguments.choice.seed);
   if (arguments.bench > 0.0) return measure(batch, arguments.bench, arguments.choice.seed);
   return serve(batch, arguments.task);
 }
@@ -105,11 +106,7 @@ void addEnvCommand(CLI::App& app, int& exitCode) {
   command->add_option("--envs", arguments->count, "Environments in the batch")->check(CLI::Range(1, 10000));
   command->add_option("--threads", arguments->threads, "Threads, 0 = all processors");
   command->add_option("--seed", arguments->choice.seed, "Seed of all episodes");
-  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
-  command->add_option("--data", arguments->data, "Folder with params/ and skills/");
-  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
-      ->check(CLI::ExistingFile);
-  command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");
+  addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_flag("--quick", arguments->quick, "Quick stepper instead of the exact one");
   command->add_option("--bench", arguments->bench, "Steps with random actions for so many seconds instead")
       ->check(CLI::Range(0.0, 3600.0));

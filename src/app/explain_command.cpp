@@ -22,6 +22,7 @@ struct ExplainArguments {
   double at = 0.0;
   std::optional<int> unum;
   std::optional<std::string> team;
+  std::string data;
   bool json = false;
 };
 
@@ -50,18 +51,18 @@ int runExplain(const ExplainArguments& arguments) {
   const std::string log = logOf(arguments);
   nlohmann::ordered_json moment;
   double nearest = std::numeric_limits<double>::infinity();
-  lab::ReplayOptions options;
-  options.dataFolder = dataFolder();
-  options.unum = arguments.unum;
-  options.team = arguments.team;
-  options.observer = [&](const agent::Session& session) {
+  lab::ReplaySettings settings;
+  settings.dataFolder = dataFolder(arguments.data);
+  settings.unum = arguments.unum;
+  settings.team = arguments.team;
+  settings.observer = [&](const agent::Session& session) {
     const double distance = std::abs(session.agent().world().game.time - arguments.at);
     // The game's clock may stand still: the last of its cycles is what the robot came to.
     if (distance > nearest) return;
     nearest = distance;
     moment = agent::traceOf(session.agent());
   };
-  lab::replay(log, options);
+  lab::replay(log, settings);
   if (moment.is_null()) throw std::runtime_error(log + ": no messages in it");
   if (nearest > 1.0) {
     throw std::runtime_error(fmt::format("{}: nothing at {:.2f} s of the game, the nearest is {:.2f} s", log,
@@ -83,6 +84,8 @@ void addExplainCommand(CLI::App& app, int& exitCode) {
   command->add_option("--at", arguments->at, "Time of the game, s")->required();
   command->add_option("--unum", arguments->unum, "Which robot, for a folder or a foreign log");
   command->add_option("--team", arguments->team, "Of which team");
+  command->add_option("--data", arguments->data, "Folder with params/ and skills/")
+      ->check(CLI::ExistingDirectory);
   command->add_flag("--json", arguments->json, "As one JSON object, all values in it");
   command->footer("Example: nonet explain logs/match --team Nonet --unum 5 --at 123.4");
   command->callback([arguments, &exitCode] { exitCode = runExplain(*arguments); });

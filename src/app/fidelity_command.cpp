@@ -101,6 +101,7 @@ void addFidelityCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::IsMember({"exact", "quick"}))
       ->capture_default_str();
   command->footer(
+      "Example: nonet fidelity tests/data/physics --svg logs/fidelity\n"
       "The columns >0.1 mm, >1 mm, >1 cm tell when the position of any body or of the ball is first that far "
       "off;\n"
       "the others are the largest differences of the whole recording. Positions in recordings have six "

@@ -6,7 +6,9 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
+#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/kick_report.h"
@@ -28,12 +30,15 @@ int run(const KickReportArguments& arguments) {
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   settings.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
+  Console console(stderr);
+  settings.progress = console.trials();
   const std::vector<lab::KickStatistics> report = lab::measureKicks(settings);
+  console.end();
   fmt::print("{}", arguments.json ? lab::kickReportJson(report, settings) : lab::kickReportTable(report));
   if (arguments.svg.empty()) return 0;
   for (const lab::KickStatistics& kick : report) {
     const std::string path = fmt::format("{}{}.svg", arguments.svg, kick.name);
-    lab::writeAtomically(path, lab::kickReportSvg(kick));
+    lab::writeAtomically(path, lab::kickReportSvg(kick, settings));
     fmt::print(stderr, "{}\n", path);
   }
   return 0;
@@ -46,12 +51,8 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
       "kick-report", "Measure seeded kicks with their approach: distance, height, direction, time, falls");
   const auto arguments = std::make_shared<KickReportArguments>();
   lab::KickReportSettings& settings = arguments->settings;
-  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
+  addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--kick", settings.kick, "Name of a kick, all, or any: the one that motion chooses");
-  command->add_option("--data", arguments->data, "Folder with params/ and skills/");
-  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
-      ->check(CLI::ExistingFile);
-  command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");
   command->add_option("--trials,--kicks", settings.trials, "Kicks of each kind")
       ->check(CLI::Range(1, 100000));
   command->add_option("--start", settings.start, "Distance from which the robot comes, m")

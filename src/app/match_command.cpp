@@ -22,7 +22,7 @@ namespace nonet::app {
 namespace {
 
 struct MatchArguments {
-  TcpMatchOptions options;
+  TcpMatchSettings settings;
   int players = 9;
   int threads = 0;
   bool inProcess = false;
@@ -50,7 +50,7 @@ void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter)
 
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
                           lab::MatchLocalization& localization) {
-  const lab::MatchChoice& match = arguments.options.match;
+  const lab::MatchChoice& match = arguments.settings.match;
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int threads = arguments.threads > 0 ? arguments.threads : cores;
   console.say(fmt::format("{}, seed {}, in one process with {} threads", lab::matchTitle(match), match.seed,
@@ -64,12 +64,12 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
   };
   std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
   std::map<sim::AgentHandle, std::unique_ptr<RobovizPainter>> painters;
-  const TcpMatchOptions& options = arguments.options;
-  if (arguments.localization || options.draw || !options.traces.empty()) {
+  const TcpMatchSettings& settings = arguments.settings;
+  if (arguments.localization || settings.draw || !settings.traces.empty()) {
     observers.afterThought = [&](const lab::Thought& thought) {
       if (arguments.localization) localization.afterThought(thought);
-      if (!options.traces.empty()) addTrace(options.traces, thought, traces[thought.handle]);
-      if (options.draw) draw(thought, painters[thought.handle]);
+      if (!settings.traces.empty()) addTrace(settings.traces, thought, traces[thought.handle]);
+      if (settings.draw) draw(thought, painters[thought.handle]);
     };
   }
   lab::MatchResult result = lab::playInProcess(match, dataFolder(arguments.data), threads, observers);
@@ -92,7 +92,7 @@ void assign(const std::vector<std::string>& assignments, lab::MatchChoice& match
 
 /// What would go wrong only after the match, or in every agent alone.
 void checkBefore(MatchArguments& arguments) {
-  lab::MatchChoice& match = arguments.options.match;
+  lab::MatchChoice& match = arguments.settings.match;
   if (match.left.name == match.right.name)
     throw std::runtime_error("--left and --right must be different names");
   for (const std::string& name : {match.left.name, match.right.name}) checkTeamName(name);
@@ -113,7 +113,7 @@ void checkBefore(MatchArguments& arguments) {
 }
 
 int runMatch(MatchArguments& arguments) {
-  lab::MatchChoice& match = arguments.options.match;
+  lab::MatchChoice& match = arguments.settings.match;
   match.left.players = arguments.players;
   match.right.players = arguments.alone ? 0 : arguments.players;
   for (const std::string& file : arguments.settingFiles) match.settings.overlayFile(file);
@@ -121,12 +121,12 @@ int runMatch(MatchArguments& arguments) {
   assign(arguments.assignments, match);
   checkBefore(arguments);
 
-  if (!arguments.options.traces.empty()) std::filesystem::create_directories(arguments.options.traces);
+  if (!arguments.settings.traces.empty()) std::filesystem::create_directories(arguments.settings.traces);
 
   Console console;
   lab::MatchLocalization localization;
   const lab::MatchResult result = arguments.inProcess ? playHere(arguments, console, localization)
-                                                      : playOverTcp(arguments.options, console);
+                                                      : playOverTcp(arguments.settings, console);
   fmt::print("{}", result.toText());
   if (arguments.localization) fmt::print("{}", localization.toText());
   std::ofstream file(arguments.json);
@@ -143,8 +143,8 @@ int runMatch(MatchArguments& arguments) {
 void addMatchCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("match", "Two teams of our agents play on the embedded server");
   auto arguments = std::make_shared<MatchArguments>();
-  TcpMatchOptions& options = arguments->options;
-  lab::MatchChoice& match = options.match;
+  TcpMatchSettings& settings = arguments->settings;
+  lab::MatchChoice& match = settings.match;
   command->add_option("--minutes", match.minutes, "Game time in all, two halves")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
@@ -152,7 +152,7 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str();
   command->add_option("--seed", match.seed, "Seed of the server and of all agents")->capture_default_str();
   CLI::Option* realTime =
-      command->add_flag("--realtime", options.realTime, "Play by the clock instead of in lock-step");
+      command->add_flag("--realtime", settings.realTime, "Play by the clock instead of in lock-step");
   command->add_option("--players", arguments->players, "Players a side")
       ->capture_default_str()
       ->check(CLI::Range(1, 11));
@@ -170,25 +170,25 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingDirectory);
   command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
   CLI::Option* logs =
-      command->add_option("--logs", options.logs, "Folder for one log per agent, for `nonet replay`");
+      command->add_option("--logs", settings.logs, "Folder for one log per agent, for `nonet replay`");
   command->add_flag(
       "--truth", arguments->truth,
       "The server tells each agent where it and the ball are; nobody plays by it, but logs with "
       "it can be judged by `nonet replay --localization`");
-  command->add_flag("--draw", options.draw,
+  command->add_flag("--draw", settings.draw,
                     "Draw what the agents believe and want on the RoboViz of this machine (UDP port 32769)");
   command->add_option(
-      "--trace", options.traces,
+      "--trace", settings.traces,
       "Folder for one decision trace per agent: what it believes and wants, for `nonet view`");
   command->add_option(
       "--monitor-log", match.monitorLog,
       "Record the monitor stream for `nonet view` (zstd; plain, for RoboViz, if the name ends "
       "in .log)");
-  command->add_option("--port", options.port, "Port for agents, 0: any free one")->capture_default_str();
-  command->add_option("--monitor-port", options.monitorPort, "Port for monitors, 0: any free one")
+  command->add_option("--port", settings.port, "Port for agents, 0: any free one")->capture_default_str();
+  command->add_option("--monitor-port", settings.monitorPort, "Port for monitors, 0: any free one")
       ->capture_default_str();
   command
-      ->add_option("--answer-timeout", options.answerTimeout,
+      ->add_option("--answer-timeout", settings.answerTimeout,
                    "Lock-step: seconds after which a silent agent is no longer waited for")
       ->capture_default_str();
   command->add_option("--settings", arguments->settingFiles, "Files with settings of the server")
@@ -225,6 +225,11 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(0, 256));
   command->footer(
+      "Examples:\n"
+      "  nonet match --minutes 2 --seed 7 --logs logs          over TCP, a log for nonet replay of each "
+      "agent\n"
+      "  nonet match --in-process --minutes 2 --monitor-log logs/match.mon --trace logs/traces\n"
+      "  nonet match --alone --set RuleHalfTime=60 --set team.ball.kick=false\n"
       "In lock-step the same seed gives the same match, over TCP and in one process, to the last byte of the "
       "logs.\n"
       "Exit codes: 0 played to the end, 1 not, or --check found something.");

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <numeric>
+#include <stdexcept>
 #include <thread>
 
 #include <fmt/chrono.h>
@@ -95,10 +96,7 @@ int repeatFile(const OptimizeArguments& arguments) {
   const auto repetitions =
       lab::repeatLearned(arguments.repeat, dataFolder(), threadsOf(arguments), showTrials(console));
   console.end();
-  if (repetitions.empty()) {
-    fmt::print(stderr, "nonet optimize: {} has no [provenance.<task>] table\n", arguments.repeat);
-    return 2;
-  }
+  if (repetitions.empty()) throw std::runtime_error(arguments.repeat + ": has no [provenance.<task>] table");
   int exitCode = 0;
   for (const auto& [recorded, repeated] : repetitions) {
     const bool same =
@@ -129,10 +127,7 @@ int acceptedType(const OptimizeArguments& arguments, const std::vector<lab::Prov
 
 // Measures a set on fresh seeds and writes it with that fitness as its provenance.
 int acceptFile(OptimizeArguments& arguments) {
-  if (arguments.out.empty()) {
-    fmt::print(stderr, "nonet optimize: --out FILE says where the accepted set goes\n");
-    return 2;
-  }
+  if (arguments.out.empty()) throw std::runtime_error("--out FILE says where the accepted set goes");
   lab::OptimizationConfig& config = arguments.config;
   const lab::Task& task = lab::findTask(arguments.task);
   agent::AgentParameters parameters = lab::defaultParameters(dataFolder());
@@ -314,16 +309,10 @@ int runOptimize(OptimizeArguments& arguments, bool generationsGiven) {
   if (arguments.list) return listTasks();
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   if (!arguments.repeat.empty()) return repeatFile(arguments);
-  if (arguments.task.empty() && !arguments.resume) {
-    fmt::print(stderr, "nonet optimize: name a task; --list shows them\n");
-    return 2;
-  }
+  if (arguments.task.empty() && !arguments.resume) throw std::runtime_error("name a task; --list shows them");
   if (!arguments.accept.empty()) return acceptFile(arguments);
   if (arguments.compareSolvers > 0) return compareSolvers(arguments);
-  if (arguments.out.empty()) {
-    fmt::print(stderr, "nonet optimize: --out FOLDER says where the run is kept\n");
-    return 2;
-  }
+  if (arguments.out.empty()) throw std::runtime_error("--out FOLDER says where the run is kept");
   return arguments.mpi ? runMpi(arguments, generationsGiven) : runThreads(arguments, generationsGiven);
 }
 
@@ -379,6 +368,14 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
                       "Rank correlation of quick and exact physics over so many random sets");
   CLI::App* report = command->add_subcommand("report", "Writes FOLDER/report.html: curves and paths");
   report->add_option("folder", arguments->reportFolder, "Folder of a run")->required();
+  command->footer(
+      "Examples:\n"
+      "  nonet optimize --list\n"
+      "  nonet optimize goToTarget --type 0 --quick --population 20 --trials 5 --out runs/walk0\n"
+      "  nonet optimize --resume --out runs/walk0          after a kill at any point\n"
+      "  nonet optimize report runs/walk0                  curves and paths as a page\n"
+      "  nonet optimize goToTarget --accept runs/walk0/best.toml --trials 100 --out params/type0.toml\n"
+      "More: docs/learning.md");
   command->callback([arguments, &exitCode, report, generations] {
     if (report->parsed()) {
       fmt::print("{}\n", lab::writeOptimizationReport(arguments->reportFolder, dataFolder()));

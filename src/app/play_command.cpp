@@ -111,6 +111,10 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
                     "Connect without waiting for other agents of this machine to introduce themselves");
   command->add_flag("--quiet", play.quiet, "Say only what went wrong");
   command->footer(
+      "Examples:\n"
+      "  nonet play --host localhost --unum 3 --team Nonet --type 4 --record 3.zst\n"
+      "  nonet play --unum 2 --type 2 --set team.ball.kick=false --draw\n"
+      "  nonet play --skill dive --type 0          shows a skill instead of playing\n"
       "Exit codes: 0 stopped by a signal, 1 error, 2 no server, 3 the server is gone, 4 refused by the "
       "server.");
   command->callback([arguments, &exitCode] { exitCode = runPlay(*arguments); });

@@ -17,7 +17,7 @@ namespace {
 
 struct ReplayArguments {
   std::vector<std::string> files;
-  lab::ReplayOptions options;
+  lab::ReplaySettings settings;
   bool json = false;
   bool localization = false;
   std::string maps = "logs/maps";
@@ -70,20 +70,20 @@ constexpr int kNoLog = 3;
 int replayOne(const std::string& file, ReplayArguments& arguments, lab::LocalizationReport& all) {
   lab::LocalizationReport localization;
   if (arguments.localization) {
-    arguments.options.observer = [&](const agent::Session& session) {
+    arguments.settings.observer = [&](const agent::Session& session) {
       localization.add(session.percept(), session.agent().world());
       all.add(session.percept(), session.agent().world());
     };
-    arguments.options.truthObserver = [&](std::string_view truth) {
+    arguments.settings.truthObserver = [&](std::string_view truth) {
       localization.sharpen(truth);
       all.sharpen(truth);
     };
   }
   if (arguments.trace) {
     if (arguments.csv) fmt::print("{}\n", agent::traceCsvHeader());
-    arguments.options.observer = [&](const agent::Session& session) { printTrace(session, arguments); };
+    arguments.settings.observer = [&](const agent::Session& session) { printTrace(session, arguments); };
   }
-  const lab::ReplayReport report = lab::replay(file, arguments.options);
+  const lab::ReplayReport report = lab::replay(file, arguments.settings);
   if (arguments.localization) {
     printLocalization(localization, file, arguments);
   } else {
@@ -99,7 +99,7 @@ int replayOne(const std::string& file, ReplayArguments& arguments, lab::Localiza
 }
 
 int runReplay(ReplayArguments& arguments) {
-  arguments.options.dataFolder = dataFolder(arguments.options.dataFolder);
+  arguments.settings.dataFolder = dataFolder(arguments.settings.dataFolder);
   lab::LocalizationReport all;
   int exitCode = 0;
   for (const std::string& file : arguments.files) {
@@ -139,22 +139,26 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--from", arguments->from, "With --trace: from this time of the game on, s")
       ->needs(trace);
   command->add_option("--to", arguments->to, "With --trace: up to this time of the game, s")->needs(trace);
-  lab::ReplayOptions& options = arguments->options;
-  command->add_option("--unum", options.unum, "Foreign logs: the robot's number, if the log does not tell");
-  command->add_option("--team", options.team, "Foreign logs: its team");
-  command->add_option("--type", options.robotType, "Foreign logs: its type")->check(CLI::Range(0, 4));
+  lab::ReplaySettings& settings = arguments->settings;
+  command->add_option("--unum", settings.unum, "Foreign logs: the robot's number, if the log does not tell");
+  command->add_option("--team", settings.team, "Foreign logs: its team");
+  command->add_option("--type", settings.robotType, "Foreign logs: its type")->check(CLI::Range(0, 4));
   command
       ->add_option(
-          "--params", options.parameterFiles,
+          "--params", settings.parameterFiles,
           "Parameter files, overlaid in this order on those of the type (foreign logs) or of the header")
       ->check(CLI::ExistingFile);
   command
-      ->add_option("--set", options.assignments,
+      ->add_option("--set", settings.assignments,
                    "One parameter of the agent, name=value, for example world.useLines=0; set last")
       ->allow_extra_args(false);
-  command->add_option("--data", options.dataFolder, "Folder with params/ and skills/")
+  command->add_option("--data", settings.dataFolder, "Folder with params/ and skills/")
       ->check(CLI::ExistingDirectory);
   command->footer(
+      "Examples:\n"
+      "  nonet replay logs/*.zst\n"
+      "  nonet replay --trace --from 100 --to 110 --csv logs/Nonet_5.zst > trace.csv\n"
+      "  nonet replay --localization tests/data/replay/*.gz\n"
       "Our own logs hold their parameters and seed: the answers must come out byte for byte as recorded.\n"
       "Exit codes: 0 all well, also if the last line is torn, 1 a difference or an unknown token, 2 a file "
       "cannot "

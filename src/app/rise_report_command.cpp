@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
+#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/lab/reports/rise_report.h"
 
@@ -14,6 +16,7 @@ namespace {
 
 struct RiseReportArguments {
   agent::AgentChoice choice;
+  std::string data;
   lab::RiseReportSettings settings;
   bool json = false;
 };
@@ -21,8 +24,11 @@ struct RiseReportArguments {
 int run(const RiseReportArguments& arguments) {
   lab::RiseReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder()));
+  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data)));
+  Console console(stderr);
+  settings.progress = console.trials();
   const lab::RiseReport report = lab::measureRising(settings);
+  console.end();
   fmt::print("{}", arguments.json ? lab::riseReportJson(report) : lab::riseReportTable(report));
   return 0;
 }
@@ -33,14 +39,14 @@ void addRiseReportCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand(
       "rise-report", "Measure rising from seeded falls to the front, the back and the side");
   const auto arguments = std::make_shared<RiseReportArguments>();
-  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
-  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
-      ->check(CLI::ExistingFile);
+  addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--falls", arguments->settings.falls, "Falls of each kind")
       ->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all falls");
   command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
   command->add_flag("--json", arguments->json, "Print JSON");
+  command->footer(
+      "Examples:\n  nonet rise-report --type 3\n  nonet rise-report --params my.toml --falls 20 --json");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }
 

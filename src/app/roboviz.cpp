@@ -156,6 +156,8 @@ std::vector<std::string> robovizPicture(const agent::Agent& agent) {
   const double spread = std::sqrt(std::max(0.0, world.self.covariance.topLeftCorner<2, 2>().trace()));
   picture.circle(X_FR.translation, std::max(spread, 0.1), picture.ownColor(), "pose");
   picture.line(X_FR.translation, X_FR * Vector2(0.4, 0.0), picture.ownColor(), "pose");
+  for (const Pose2& particle : agent.particles())
+    picture.point(particle.translation, picture.ownColor(), "particles");
   if (world.ball.known) {
     picture.ball(world.ball.p_FB);
     picture.line(world.ball.p_FB.head<2>(), world::restPlace({world.ball.p_FB, world.ball.v_FB}), kGrey,

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
@@ -30,16 +30,13 @@ int run(const SaveReportArguments& arguments) {
   lab::SaveReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   settings.goalie = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
-  Console console;
-  if (::isatty(STDOUT_FILENO) != 0)  // elsewhere there shall be nothing but the result
-    settings.progress = [&console](int done, int all) {
-      console.progress(fmt::format("{} of {} shots", done, all));
-    };
+  Console console(stderr);
+  settings.progress = console.trials();
   const lab::SaveReport report = lab::measureSaves(settings);
   console.end();
   fmt::print("{}", arguments.json ? lab::saveReportJson(report, settings) : lab::saveReportTable(report));
   if (arguments.svg.empty()) return 0;
-  lab::writeAtomically(arguments.svg, lab::saveReportSvg(report));
+  lab::writeAtomically(arguments.svg, lab::saveReportSvg(report, settings));
   fmt::print(stderr, "{}\n", arguments.svg);
   return 0;
 }
@@ -51,11 +48,7 @@ void addSaveReportCommand(CLI::App& app, int& exitCode) {
       "save-report", "Measure the goalie on seeded shots that would be goals: rolling and flying");
   const auto arguments = std::make_shared<SaveReportArguments>();
   lab::SaveReportSettings& settings = arguments->settings;
-  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
-  command->add_option("--data", arguments->data, "Folder with params/ and skills/");
-  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
-      ->check(CLI::ExistingFile);
-  command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");
+  addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--trials", settings.trials, "Shots of each kind")->check(CLI::Range(1, 100000));
   command
       ->add_option("--challenge", settings.challenge,

@@ -27,6 +27,7 @@ struct SeriesArguments {
   std::string data;
   std::string out;
   std::string sequential;
+  std::vector<std::string> assignments;
   int jobs = 0;
 };
 
@@ -56,7 +57,19 @@ std::string placeFor(const SeriesArguments& arguments) {
   return arguments.where;
 }
 
+/// Names of parameters have a dot, those of the server's settings have none. What a side sets itself counts.
+void assign(SeriesArguments& arguments) {
+  std::vector<std::string> ofBoth;
+  for (const std::string& assignment : arguments.assignments) {
+    const bool parameter = assignment.substr(0, assignment.find('=')).find('.') != std::string::npos;
+    (parameter ? ofBoth : arguments.choice.settingAssignments).push_back(assignment);
+  }
+  for (lab::SideChoice* side : {&arguments.a.side, &arguments.b.side})
+    side->assignments.insert(side->assignments.begin(), ofBoth.begin(), ofBoth.end());
+}
+
 int runSeries(SeriesArguments& arguments) {
+  assign(arguments);
   lab::SeriesChoice& choice = arguments.choice;
   const std::string data = std::filesystem::absolute(dataFolder(arguments.data)).string();
   choice.a = sideOf(arguments.a, data);
@@ -156,7 +169,11 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
   command->add_option("--out", arguments->out, "Folder; a series that is there already goes on");
   command->add_option("--settings", choice.settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
-  command->add_option("--set", choice.settingAssignments, "Settings of the server, Name=Value")->take_all();
+  command
+      ->add_option("--set", arguments->assignments,
+                   "One value, name=value: a setting of the server (RuleHalfTime=60), or with a dot a "
+                   "parameter of both sides (team.ball.kick=false)")
+      ->allow_extra_args(false);
   command->footer(
       "A pair is two games from one seed with the sides exchanged; A plays left in the first.\n"
       "Examples:\n"

@@ -145,6 +145,9 @@ void addSkillCommand(CLI::App& app, int& exitCode) {
   formatCommand->add_flag("--check", arguments->testOnly,
                           "Write nothing; exit code 1 if a file would change");
   formatCommand->callback([arguments, &exitCode] { exitCode = format(*arguments); });
+  command->footer(
+      "Examples:\n  nonet skill check skills\n  nonet skill format --check skills\n"
+      "  nonet skill play dive --type 0 --plot dive.svg");
   addSkillPlayCommand(*command, exitCode);
 }
 

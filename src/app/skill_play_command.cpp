@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/config/assignment.h"
@@ -103,9 +104,7 @@ void addSkillPlayCommand(CLI::App& skillCommand, int& exitCode) {
   command
       ->add_option("skill", arguments->skill, "Name of a skill, or a FILE.skl, which may call its neighbours")
       ->required();
-  command->add_option("--type", arguments->choice.robotType, "Robot type")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 4));
+  addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_flag("--mirror", settings.mirrored, "Left and right exchanged: a kick with the right foot");
   command
       ->add_option(
@@ -120,10 +119,6 @@ void addSkillPlayCommand(CLI::App& skillCommand, int& exitCode) {
       ->check(CLI::Range(0.02, 60.0));
   command->add_option("--plot", arguments->plot, "Draw what each joint was told and did: an SVG file");
   command->add_option("--monitor", settings.monitorLog, "Write a monitor log of every cycle, for nonet view");
-  command->add_option("--data", arguments->data, "Folder with params/ and skills/");
-  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
-      ->check(CLI::ExistingFile);
-  command->add_option("--set", arguments->choice.assignments, "Single parameters, name=value");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(
       "The last posture is held at the end. Learned values of params/ hold for the skills of the data "

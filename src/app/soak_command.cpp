@@ -20,8 +20,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct SoakArguments {
-  MatchSoakOptions matches;
-  FaultSoakOptions faults;
+  MatchSoakSettings matches;
+  FaultSoakSettings faults;
   lab::RandomEffectorsChoice effectors;
   bool harm = false;
   double effectorMinutes = 0.0;
@@ -119,8 +119,8 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("soak", "Unattended matches, faults, or any well-formed commands: what breaks");
   auto arguments = std::make_shared<SoakArguments>();
-  MatchSoakOptions& matches = arguments->matches;
-  FaultSoakOptions& faults = arguments->faults;
+  MatchSoakSettings& matches = arguments->matches;
+  FaultSoakSettings& faults = arguments->faults;
   command->add_option("--matches", matches.matches, "Whole matches over TCP")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));

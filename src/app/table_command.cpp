@@ -20,11 +20,13 @@ struct TableArguments {
   std::string file;
   std::string out;
   std::string data;
+  std::optional<int> pairs;
+  std::optional<double> minutes;
   int jobs = 0;
   bool json = false;
 };
 
-void write(const lab::TableChoice& table, const std::vector<lab::TableEntry>& entries,
+void write(const lab::TableSettings& table, const std::vector<lab::TableEntry>& entries,
            const std::string& folder) {
   lab::writeAtomically(folder + "/table.json", lab::tableJson(table, entries).dump(1) + "\n");
   lab::writeAtomically(folder + "/table.txt", lab::tableText(table, entries));
@@ -32,7 +34,9 @@ void write(const lab::TableChoice& table, const std::vector<lab::TableEntry>& en
 
 int runTable(TableArguments& arguments) {
   const std::string data = std::filesystem::absolute(dataFolder(arguments.data)).string();
-  lab::TableChoice table = lab::readTable(arguments.file, data);
+  lab::TableSettings table = lab::readTable(arguments.file, data);
+  if (arguments.pairs) table.games.pairs = *arguments.pairs;
+  if (arguments.minutes) table.games.minutes = *arguments.minutes;
   for (const lab::SideChoice& side : table.sides) checkTeamName(side.name);
   table.games.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
   table.games.version = versionText();
@@ -72,6 +76,10 @@ void addTableCommand(CLI::App& app, int& exitCode) {
   command->add_option("FILE", arguments->file, "What is played (TOML)")->required()->check(CLI::ExistingFile);
   command->add_option("--out", arguments->out,
                       "Folder with a series for each entry; a table that is there already goes on");
+  command->add_option("--pairs", arguments->pairs, "So many pairs of games instead of the file's")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--minutes", arguments->minutes, "Games of so many minutes instead of the file's")
+      ->check(CLI::Range(0.01, 10000.0));
   command->add_option("--jobs", arguments->jobs, "Games at a time, 0: one per core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
@@ -79,7 +87,9 @@ void addTableCommand(CLI::App& app, int& exitCode) {
   command->add_option("--data", arguments->data, "Folder with params/ and skills/ of this program's sides")
       ->check(CLI::ExistingDirectory);
   command->footer(
-      "Example: nonet table params/tables/formations.toml\n"
+      "Examples:\n"
+      "  nonet table params/tables/formations.toml\n"
+      "  nonet table params/tables/walks.toml --pairs 2 --minutes 2 --out logs/quick-walks\n"
       "The file:\n"
       "  against = \"full\"          without it everybody plays everybody\n"
       "  pairs = 50\n"

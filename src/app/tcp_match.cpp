@@ -79,19 +79,19 @@ class TemporaryFolder {
 
 class TcpMatch {
  public:
-  TcpMatch(const TcpMatchOptions& options, Console& console)
-      : options_(options),
+  TcpMatch(const TcpMatchSettings& settings, Console& console)
+      : settings_(settings),
         console_(console),
-        watcher_(options.match),
+        watcher_(settings.match),
         sink_(std::make_shared<ConsoleSink>(console)),
         logger_(sink_),
-        server_(lab::matchSettings(options.match), options.match.seed, serverOptions()) {}
+        server_(lab::matchSettings(settings.match), settings.match.seed, serverOptions()) {}
 
   lab::MatchResult run() {
-    if (!options_.logs.empty()) fs::create_directories(options_.logs);
+    if (!settings_.logs.empty()) fs::create_directories(settings_.logs);
     console_.say(fmt::format("{}, seed {}, {}; agents on port {}, monitors on port {}",
-                             lab::matchTitle(options_.match), options_.match.seed,
-                             options_.realTime ? "real time" : "lock-step", server_.agentPort(),
+                             lab::matchTitle(settings_.match), settings_.match.seed,
+                             settings_.realTime ? "real time" : "lock-step", server_.agentPort(),
                              server_.monitorPort()));
     startAgents();
     server_.onCycle([this](const sim::Simulation& simulation) { afterCycle(simulation); });
@@ -110,13 +110,13 @@ class TcpMatch {
   sim::ServerOptions serverOptions() const {
     sim::ServerOptions server;
     server.address = "127.0.0.1";
-    server.agentPort = options_.port;
-    server.monitorPort = options_.monitorPort;
-    server.lockStep = !options_.realTime;
-    server.realTime = options_.realTime;
-    server.answerTimeout = options_.answerTimeout;
-    server.players = options_.match.left.players + options_.match.right.players;
-    server.monitorLog = options_.match.monitorLog;
+    server.agentPort = settings_.port;
+    server.monitorPort = settings_.monitorPort;
+    server.lockStep = !settings_.realTime;
+    server.realTime = settings_.realTime;
+    server.answerTimeout = settings_.answerTimeout;
+    server.players = settings_.match.left.players + settings_.match.right.players;
+    server.monitorLog = settings_.match.monitorLog;
     server.endWithMatch = true;
     server.handleSignals = true;
     return server;
@@ -128,8 +128,8 @@ class TcpMatch {
 
   void startAgents() {
     for (const lab::PlayerRecord& player : watcher_.result().players) {
-      const agent::AgentChoice agent = lab::agentChoice(options_.match, player.rightTeam, player.unum);
-      const lab::TeamChoice& team = player.rightTeam ? options_.match.right : options_.match.left;
+      const agent::AgentChoice agent = lab::agentChoice(settings_.match, player.rightTeam, player.unum);
+      const lab::TeamChoice& team = player.rightTeam ? settings_.match.right : settings_.match.left;
       std::vector<std::string> command = playCommand(
           PlayProgram(), agent,
           {"127.0.0.1", server_.agentPort(), true, team.dataFolder, folder_.file(nameOf(player) + ".json")});
@@ -137,11 +137,11 @@ class TcpMatch {
         command.push_back(option);
         command.push_back(value);
       };
-      if (!options_.logs.empty())
-        add("--record", (fs::path(options_.logs) / (nameOf(player) + ".zst")).string());
-      if (options_.draw) command.emplace_back("--draw");
-      if (!options_.traces.empty())
-        add("--trace", (fs::path(options_.traces) / (nameOf(player) + ".trace")).string());
+      if (!settings_.logs.empty())
+        add("--record", (fs::path(settings_.logs) / (nameOf(player) + ".zst")).string());
+      if (settings_.draw) command.emplace_back("--draw");
+      if (!settings_.traces.empty())
+        add("--trace", (fs::path(settings_.traces) / (nameOf(player) + ".trace")).string());
       processes_.start(command, folder_.file(nameOf(player) + ".txt"));
     }
   }
@@ -213,7 +213,7 @@ class TcpMatch {
     return result;
   }
 
-  TcpMatchOptions options_;
+  TcpMatchSettings settings_;
   Console& console_;
   lab::MatchWatcher watcher_;
   std::shared_ptr<ConsoleSink> sink_;
@@ -229,8 +229,8 @@ class TcpMatch {
 
 }  // namespace
 
-lab::MatchResult playOverTcp(const TcpMatchOptions& options, Console& console) {
-  return TcpMatch(options, console).run();
+lab::MatchResult playOverTcp(const TcpMatchSettings& settings, Console& console) {
+  return TcpMatch(settings, console).run();
 }
 
 }  // namespace nonet::app

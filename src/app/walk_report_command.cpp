@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
+#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/lab/reports/walk_report.h"
 
@@ -18,6 +20,7 @@ namespace {
 
 struct WalkReportArguments {
   agent::AgentChoice choice;
+  std::string data;
   lab::WalkReportSettings settings;
   lab::ServerAddress server;
   bool overTcp = false;
@@ -39,12 +42,15 @@ int run(WalkReportArguments arguments) {
     throw std::runtime_error("courses are walked in process only: leave out --tcp or --courses");
   lab::WalkReportSettings& settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder()));
+  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data)));
   if (arguments.overTcp) settings.server = arguments.server;
   if (!arguments.traceFile.empty()) {
     writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));
   }
+  Console console(stderr);
+  settings.progress = console.trials();
   const lab::WalkReport report = lab::measureWalk(settings);
+  console.end();
   if (!arguments.svgFile.empty()) writeFile(arguments.svgFile, lab::walkReportSvg(report));
   fmt::print("{}", arguments.json ? lab::walkReportJson(report) : lab::walkReportTable(report));
   return 0;
@@ -57,9 +63,7 @@ void addWalkReportCommand(CLI::App& app, int& exitCode) {
       "walk-report",
       "Measure a parameter set: speeds in 16 directions and turning, falls, confidence intervals");
   const auto arguments = std::make_shared<WalkReportArguments>();
-  command->add_option("--type", arguments->choice.robotType, "Robot type")->check(CLI::Range(0, 4));
-  command->add_option("--params", arguments->choice.parameterFiles, "Parameter files, overlaid in this order")
-      ->check(CLI::ExistingFile);
+  addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--trials", arguments->settings.trials, "Walks per measure")
       ->check(CLI::Range(1, 10000));
   command
@@ -77,6 +81,9 @@ void addWalkReportCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--json", arguments->json, "Print JSON");
   command->add_option("--svg", arguments->svgFile, "Write a polar plot of the speeds");
   command->add_option("--trace", arguments->traceFile, "Write a plot of one second of fast walking forward");
+  command->footer(
+      "Examples:\n  nonet walk-report --type 3\n  nonet walk-report --type 3 --trials 3 --courses 10 --json\n"
+      "  nonet walk-report --params my.toml --svg walk.svg --trace trace.svg");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }
 

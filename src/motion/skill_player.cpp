@@ -52,6 +52,12 @@ JointGoal mirroredGoal(const JointGoal& goal) {
   return {model::mirrored(goal.joint), {sign * goal.angle.constant, sign * goal.angle.per}, goal.after};
 }
 
+bool takesTime(Instruction::Kind kind) {
+  using Kind = Instruction::Kind;
+  return kind == Kind::MoveOver || kind == Kind::MoveAt || kind == Kind::Swing || kind == Kind::Curve ||
+         kind == Kind::Wait || kind == Kind::WaitUntil;
+}
+
 // The ball in the torso frame. The ball state is level, so the torso's tilt comes in.
 Vector3 ballFromTorso(const Vector2& p_RBall, const world::BodyState& body) {
   const Vector3 p_level(p_RBall.x(), p_RBall.y(), kBallRadius - body.torsoHeight);
@@ -87,18 +93,8 @@ SkillPlayer::Place SkillPlayer::statement() const {
   const Frame& frame = frames_[static_cast<std::size_t>(depth_ - 1)];
   const Skill& skill = library_->skill(frame.skill);
   const Instruction& instruction = skill.program[static_cast<std::size_t>(frame.at)];
-  using Kind = Instruction::Kind;
-  switch (instruction.kind) {
-    case Kind::MoveOver:
-    case Kind::MoveAt:
-    case Kind::Swing:
-    case Kind::Curve:
-    case Kind::Wait:
-    case Kind::WaitUntil:
-      return {skill.name, instruction.line};
-    default:
-      return {};  // takes no time: the next cycle goes past it
-  }
+  // What takes no time is gone past in the next cycle.
+  return takesTime(instruction.kind) ? Place{skill.name, instruction.line} : Place{};
 }
 
 SkillPlayer::Result SkillPlayer::update(const world::WorldState& world, JointTargets& targets) {
@@ -142,33 +138,8 @@ SkillPlayer::Outcome SkillPlayer::execute(const Instruction& instruction, const 
   Frame& frame = top();
   const bool first = !begun_;
   if (first) begin(skill, instruction, frame.mirrored, world, targets);
+  if (takesTime(instruction.kind)) return spendTime(instruction, skill, world, budget, targets);
   switch (instruction.kind) {
-    case Kind::MoveOver:
-    case Kind::MoveAt:
-    case Kind::Swing:
-    case Kind::Curve:
-    case Kind::Wait:
-    case Kind::WaitUntil: {
-      if (instruction.kind == Kind::WaitUntil && holds(skill, instruction.condition, frame.mirrored, world))
-        break;
-      const double used = std::min(budget, duration_ - inInstruction_);
-      inInstruction_ += used;
-      budget -= used;
-      const double share = duration_ > 0.0 ? inInstruction_ / duration_ : 1.0;
-      if (instruction.kind == Kind::MoveOver || instruction.kind == Kind::MoveAt ||
-          instruction.kind == Kind::Curve) {
-        place(instruction, frame.mirrored, share, targets);
-      } else if (instruction.kind == Kind::Swing) {
-        placeSwing(targets);
-      }
-      if (budget <= 1e-9) {
-        if (inInstruction_ < duration_ - 1e-9) return Outcome::Stay;
-        ++frame.at;  // over exactly with this cycle
-        begun_ = false;
-        return Outcome::Stay;
-      }
-      break;
-    }
     case Kind::Branch:
       frame.at =
           holds(skill, instruction.condition, frame.mirrored, world) ? frame.at + 1 : instruction.target;
@@ -195,8 +166,36 @@ SkillPlayer::Outcome SkillPlayer::execute(const Instruction& instruction, const 
       return Outcome::Ended;
     case Kind::Fail:
       return Outcome::Failed;
-    case Kind::Call:
-      break;  // done by the caller
+    default:  // Call: done by the caller
+      break;
+  }
+  ++frame.at;
+  return Outcome::Next;
+}
+
+SkillPlayer::Outcome SkillPlayer::spendTime(const Instruction& instruction, const Skill& skill,
+                                            const world::WorldState& world, double& budget,
+                                            JointTargets& targets) {
+  using Kind = Instruction::Kind;
+  Frame& frame = top();
+  const bool over =
+      instruction.kind == Kind::WaitUntil && holds(skill, instruction.condition, frame.mirrored, world);
+  if (!over) {
+    const double used = std::min(budget, duration_ - inInstruction_);
+    inInstruction_ += used;
+    budget -= used;
+    const double share = duration_ > 0.0 ? inInstruction_ / duration_ : 1.0;
+    if (instruction.kind == Kind::Swing) {
+      placeSwing(targets);
+    } else if (instruction.kind != Kind::Wait && instruction.kind != Kind::WaitUntil) {
+      place(instruction, frame.mirrored, share, targets);
+    }
+    if (budget <= 1e-9) {
+      if (inInstruction_ < duration_ - 1e-9) return Outcome::Stay;
+      ++frame.at;  // over exactly with this cycle
+      begun_ = false;
+      return Outcome::Stay;
+    }
   }
   ++frame.at;
   return Outcome::Next;

@@ -188,6 +188,14 @@ const WorldState& WorldModel::state() const {
   return stages_->state;
 }
 
+std::vector<Pose2> WorldModel::particles() const {
+  const Pose2 X_FW(0.0, 0.0, playsFromRight(stages_->state.game) ? kPi : 0.0);
+  std::vector<Pose2> poses;
+  for (const Particle& particle : stages_->localization.particles().particles())
+    poses.push_back(X_FW * particle.X_WR);
+  return poses;
+}
+
 const Localization& WorldModel::localization() const {
   return stages_->localization;
 }

@@ -34,6 +34,10 @@ TEST(Trace, SaysWhatTheAgentBelievesInAllThreeForms) {
   EXPECT_NEAR(trace["pose"][0].get<double>(), pose.translation.x(), 1e-3);
   EXPECT_NEAR(trace["pose"][2].get<double>(), toDegrees(pose.rotation), 0.01);
   EXPECT_NEAR(trace["covariance"][0].get<double>(), agent.world().self.covariance(0, 0), 1e-6);
+  ASSERT_EQ(trace["particles"].size(), agent.particles().size());
+  EXPECT_GT(trace["particles"].size(), 100U) << "lost: everywhere";
+  for (std::size_t i = 0; i < trace["particles"].size(); ++i)
+    EXPECT_NEAR(trace["particles"][i][0].get<double>(), agent.particles()[i].translation.x(), 0.006);
 
   const std::string line = traceCsv(trace);
   const std::string_view header = traceCsvHeader();
@@ -42,6 +46,7 @@ TEST(Trace, SaysWhatTheAgentBelievesInAllThreeForms) {
   const std::string text = traceText(trace);
   EXPECT_THAT(text, ::testing::HasSubstr("Reds 5 at 3.25 s of the game"));
   EXPECT_THAT(text, ::testing::HasSubstr("ball      not known"));
+  EXPECT_THAT(text, ::testing::HasSubstr("particles 240, nine tenths within"));
 }
 
 }  // namespace

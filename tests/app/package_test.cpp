@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "app/program.h"
 
@@ -115,6 +116,19 @@ TEST_F(Params, FindsByWordAndByDifference) {
   EXPECT_EQ(differ, 0);
   EXPECT_THAT(some, HasSubstr("world.useLines = false (default true)"));
   EXPECT_THAT(some, Not(HasSubstr("usePoseFit")));
+  EXPECT_EQ(list({"--grep", "POSEfit"}).first, 0) << "upper and lower case are the same";
+}
+
+TEST_F(Params, SpeaksJson) {
+  const auto [code, text] = list({"--json", "--grep", "world.useLines", "--set", "world.useLines=false"});
+  EXPECT_EQ(code, 0);
+  const auto json = nlohmann::json::parse(text);
+  ASSERT_EQ(json.size(), 1U);
+  EXPECT_EQ(json[0]["name"], "world.useLines");
+  EXPECT_EQ(json[0]["value"], false);
+  EXPECT_EQ(json[0]["default"], true);
+  EXPECT_EQ(json[0]["from"], "--set");
+  EXPECT_TRUE(json[0]["range"].is_null()) << "true or false";
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ TEST(Play, AnswersOnlyTheNewestAndReplaysTheSame) {
   server.close();
   EXPECT_EQ(player.wait(), PlayExit::ServerGone);
 
-  lab::ReplayOptions replayOptions;
+  lab::ReplaySettings replayOptions;
   replayOptions.dataFolder = NONET_SOURCE_DIR;
   const lab::ReplayReport report = lab::replay(log, replayOptions);
   EXPECT_EQ(report.counts.messages, 7);

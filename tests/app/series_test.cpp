@@ -29,11 +29,16 @@ int occurrences(const std::string& text, const std::string& part) {
 TEST(SeriesCommand, PlaysPairsAndReportsThem) {
   const TestFolder folder("nonet_series");
   const std::string out = folder.file("games");
-  Program series({"series", "own", "own", "--b-set", "team.ball.kick=false", "--b-name", "walkers", "--pairs",
-                  "1", "--minutes", "0.1", "--players", "2", "--jobs", "2", "--out", out},
+  Program series({"series", "own", "own", "--b-set", "team.ball.kick=false", "--b-name", "walkers", "--set",
+                  "world.useLines=true", "--pairs", "1", "--minutes", "0.1", "--players", "2", "--jobs", "2",
+                  "--out", out},
                  folder.file("1.txt"));
   ASSERT_EQ(series.wait(), 0) << series.output();
   EXPECT_THAT(series.output(), HasSubstr("2 games"));
+  std::ifstream resultFile(out + "/result.json");
+  const auto result = nlohmann::json::parse(resultFile);
+  for (const char* side : {"a", "b"})
+    EXPECT_THAT(result.at(side).get<std::string>(), HasSubstr("world.useLines=true")) << "--set is for both";
 
   Program report({"report", out}, folder.file("2.txt"));
   ASSERT_EQ(report.wait(), 0) << report.output();

@@ -46,12 +46,12 @@ TEST(SoakCounts, NumbersAreSummedAndTheLargestKept) {
 }
 
 TEST(SoakCounts, MatchesAreMixedAsToldAndTheSameAgain) {
-  MatchSoakOptions options;
+  MatchSoakSettings settings;
   int realTime = 0;
   int eleven = 0;
   for (int index = 0; index < 400; ++index) {
-    const SoakMatch match = soakMatch(options, index);
-    EXPECT_EQ(match.seed, soakMatch(options, index).seed);
+    const SoakMatch match = soakMatch(settings, index);
+    EXPECT_EQ(match.seed, soakMatch(settings, index).seed);
     realTime += match.realTime ? 1 : 0;
     eleven += match.players == 11 ? 1 : 0;
   }

@@ -1,6 +1,7 @@
 // The viewer: the stream against the simulation's truth, the page in a browser.
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <regex>
 #include <string>
@@ -173,6 +174,7 @@ class RunningView {
     port_ = std::stoi(match[1]);
   }
   int port() const { return port_; }
+  bool says(const std::string& pattern) const { return program_.says(pattern); }
   std::string address(const std::string& rest) const {
     return "http://localhost:" + std::to_string(port_) + rest;
   }
@@ -254,6 +256,49 @@ TEST(ViewPage, LoadsSeeksAndShowsFieldRobotsAndBall) {
   const std::string two = ballSeenBy5("2");
   EXPECT_EQ(two, ballSeenBy5("2")) << "the same moment looks the same";
   EXPECT_NE(two, ballSeenBy5("3")) << "the ball has rolled";
+}
+
+int portIn(const std::string& text, const std::string& before) {
+  return std::stoi(text.substr(text.find(before) + before.size()));
+}
+
+double gameTimeIn(const std::string& page) {
+  const std::string before = "data-time=\"";
+  const std::size_t at = page.find(before);
+  return at == std::string::npos ? -1.0 : std::stod(page.substr(at + before.size()));
+}
+
+// A match that is being played: the page shows who is there now; when the server ends it keeps what was
+// played and says what it waits for. Paused at the newest moment, because software draws sixty pictures a
+// second slowly.
+TEST(ViewPage, FollowsAServerThatRuns) {
+  const auto browser = Browser::find();
+  if (!browser) GTEST_SKIP() << "no Chromium here: apt-get install chromium";
+  const TestFolder folder("nonet_view_live");
+  const Program server({"serve", "--realtime", "--port", "0", "--monitor-port", "0", "--set",
+                        "AutomaticKickOff=true", "--set", "WaitBeforeKickOff=0.5"},
+                       folder.file("server.txt"));
+  ASSERT_TRUE(server.says("monitors on port [0-9]+")) << server.output();
+  const RunningView view(folder, "localhost:" + std::to_string(portIn(server.output(), "monitors on port ")));
+  ASSERT_TRUE(view.says("live from localhost"));
+  const Program agent({"play", "--port", std::to_string(portIn(server.output(), "agents on port ")), "--team",
+                       "Reds", "--unum", "5", "--type", "3"},
+                      folder.file("agent.txt"));
+  ASSERT_TRUE(server.says("Reds")) << server.output();
+
+  const std::string kNow = "/?paused=1&t=9999&follow=left5";
+  const auto live = browser->visit(view.address(kNow), folder.file("profile"));
+  EXPECT_THAT(live.page, ::testing::HasSubstr("data-state=\"ready\"")) << live.log;
+  EXPECT_THAT(live.page, ::testing::Not(::testing::HasSubstr("data-errors")));
+  EXPECT_THAT(live.page, ::testing::HasSubstr("Reds 5 <small>type 3"));
+  EXPECT_GT(gameTimeIn(live.page), 0.0) << "kicked off";
+
+  ::kill(server.pid(), SIGTERM);
+  ASSERT_TRUE(view.says("live from.*\n.*waiting for a server"));
+  const auto ended = browser->visit(view.address(kNow), folder.file("profile"));
+  EXPECT_THAT(ended.page, ::testing::HasSubstr("waiting for a server at localhost"));
+  EXPECT_THAT(ended.page, ::testing::HasSubstr("Reds 5 <small>type 3")) << "what was played is still there";
+  EXPECT_GT(gameTimeIn(ended.page), gameTimeIn(live.page));
 }
 
 }  // namespace

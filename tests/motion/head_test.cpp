@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "nonet/motion/head_control.h"
-#include "nonet/motion/watch.h"
 
 namespace nonet::motion {
 namespace {
@@ -81,67 +80,6 @@ TEST_F(Head, ScanSweepsBothSidesFromWhereverItBegins) {
   }
   EXPECT_NEAR(low, -parameters_.scanPan, 0.05);
   EXPECT_NEAR(high, parameters_.scanPan, 0.05);
-}
-
-world::WorldState seenBall() {
-  world::WorldState world;
-  world.time = 10.0;
-  world.self.height = 0.34;
-  world.self.lastCorrection = 10.0;
-  world.ball.known = true;
-  world.ball.lastSeen = 9.98;
-  world.ball.p_RB = Vector2(1.0, 0.5);
-  world.ball.p_FB = Vector3(1.0, 0.5, 0.04);
-  return world;
-}
-
-TEST(Watch, LooksWhereTheBallWillBe) {
-  world::WorldState world = seenBall();
-  world.self.X_FR.rotation = 0.5 * kPi;
-  world.ball.v_FB = Vector3(0.0, 2.0, 0.0);  // away from the robot
-  Watch watch;
-  const HeadRequest request = watch.update(world);
-  ASSERT_EQ(request.kind, HeadRequest::Kind::Point);
-  EXPECT_LT((request.p_RP - Vector3(1.0 + 2.0 * WatchParameters{}.lookAhead, 0.5, 0.04 - 0.34)).norm(), 1e-9);
-}
-
-TEST(Watch, AllowsForTheLeanOfTheTorso) {
-  world::WorldState world = seenBall();
-  world.body.pitch = 0.3;
-  Watch watch;
-  const HeadRequest request = watch.update(world);
-  // Leaning forward by 0.3 rad, what lies ahead on the ground appears higher.
-  const Vector3 back = Eigen::AngleAxisd(0.3, Vector3::UnitY()) * request.p_RP;
-  EXPECT_LT((back - Vector3(1.0, 0.5, -0.30)).norm(), 1e-9);
-}
-
-TEST(Watch, SearchesALostBall) {
-  world::WorldState world = seenBall();
-  Watch watch;
-  world.time = 20.0;
-  world.self.lastCorrection = 20.0;
-  EXPECT_EQ(watch.update(world).kind, HeadRequest::Kind::Scan);
-  world.ball.known = false;
-  world.ball.lastSeen = 20.0;
-  EXPECT_EQ(watch.update(world).kind, HeadRequest::Kind::Scan);
-}
-
-TEST(Watch, GlancesAroundWithoutLandmarksAndComesBack) {
-  world::WorldState world = seenBall();
-  Watch watch;
-  int glances = 0;
-  int looks = 0;
-  for (int i = 0; i < 500; ++i) {
-    world.time += kCycleTime;
-    world.ball.lastSeen = world.time;
-    const bool glance = watch.update(world).kind == HeadRequest::Kind::Look;
-    (glance ? glances : looks) += 1;
-    if (i * kCycleTime < WatchParameters{}.glanceAfter - 0.1) {
-      EXPECT_FALSE(glance);
-    }
-  }
-  EXPECT_GT(glances, 50);
-  EXPECT_GT(looks, 2 * glances);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(KickReport, MeasuresTheFanOfTheBallsWays) {
   settings.kick = "any";
   settings.trials = 2;
   const KickStatistics kicks = measureKicks(settings).at(0);
-  const std::string svg = kickReportSvg(kicks);
+  const std::string svg = kickReportSvg(kicks, settings);
   EXPECT_GT(std::count(svg.begin(), svg.end(), '\n'), 20);
   for (const Kick& kick : kicks.kicks) {
     EXPECT_EQ(kick.path.empty(), !kick.contact);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "nonet/agent/parameters.h"
 #include "nonet/agent/robot.h"
@@ -47,6 +48,7 @@ class Agent {
 
   /// What it believes, for measurements and drawings.
   const world::WorldState& world() const;
+  std::vector<Pose2> particles() const;  // where it holds itself possible, own field frame
   team::Role role() const;
   /// Name of the kick that the body carries out; empty: none. Valid as long as the agent.
   std::string_view kick() const;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "nonet/model/robot_model.h"
 #include "nonet/motion/motion.h"
@@ -42,6 +43,8 @@ class Robot {
 
   /// What it believes; nothing is known before the first message.
   const world::WorldState& world() const;
+  /// Where it holds itself possible (own field frame), for drawings.
+  std::vector<Pose2> particles() const;
   /// motion().state() is what the body is doing: it goes in at the front of the next decision.
   const motion::Motion& motion() const;
   const model::RobotModel& model() const;

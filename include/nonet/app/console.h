@@ -6,6 +6,8 @@
 #include <mutex>
 #include <string>
 
+#include "nonet/lab/common/progress.h"
+
 namespace nonet::app {
 
 class Console {
@@ -18,6 +20,8 @@ class Console {
   void progress(const std::string& line);
   /// Whether progress() would show something now.
   bool due() const;
+  /// Shows the trials that a measurement has done. As long as the console.
+  lab::TrialProgress trials();
   /// A line that stays. From any thread.
   void say(const std::string& line);
   /// Lets the last progress stay.

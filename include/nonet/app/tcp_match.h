@@ -8,7 +8,7 @@
 
 namespace nonet::app {
 
-struct TcpMatchOptions {
+struct TcpMatchSettings {
   lab::MatchChoice match;
   bool realTime = false;   // otherwise lock-step
   std::uint16_t port = 0;  // 0: any free one
@@ -20,6 +20,6 @@ struct TcpMatchOptions {
 };
 
 /// Plays to the end, or to SIGINT or SIGTERM. Throws std::runtime_error if the match cannot begin.
-lab::MatchResult playOverTcp(const TcpMatchOptions& options, Console& console);
+lab::MatchResult playOverTcp(const TcpMatchSettings& settings, Console& console);
 
 }  // namespace nonet::app

@@ -54,6 +54,8 @@ class SkillPlayer {
 
   Outcome execute(const Instruction& instruction, const Skill& skill, const world::WorldState& world,
                   double& budget, JointTargets& targets);
+  Outcome spendTime(const Instruction& instruction, const Skill& skill, const world::WorldState& world,
+                    double& budget, JointTargets& targets);
   bool holds(const Skill& skill, int node, bool mirrored, const world::WorldState& world) const;
   double quantity(Quantity quantity, bool mirrored, const world::WorldState& world) const;
   void begin(const Skill& skill, const Instruction& instruction, bool mirrored,

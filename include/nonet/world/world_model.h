@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "nonet/math/pose2.h"
 #include "nonet/model/robot_model.h"
@@ -27,6 +28,8 @@ class WorldModel {
 
   /// For measurements.
   const Localization& localization() const;
+  /// Where the particle filter holds the robot possible (own field frame), for drawings.
+  std::vector<Pose2> particles() const;
 
  private:
   struct Stages;

@@ -49,16 +49,16 @@ struct Fellow {
 
 class FaultSoak {
  public:
-  FaultSoak(const FaultSoakOptions& options, Console& console)
-      : options_(options), console_(console), random_(options.seed) {
-    fs::create_directories(options.out);
+  FaultSoak(const FaultSoakSettings& settings, Console& console)
+      : settings_(settings), console_(console), random_(settings.seed) {
+    fs::create_directories(settings.out);
     startServer();
     watch_.emplace(monitorPort_);
-    for (int unum = 1; unum <= options.players; ++unum) {
+    for (int unum = 1; unum <= settings.players; ++unum) {
       for (const TeamSide side : {TeamSide::Left, TeamSide::Right}) {
         Fellow& fellow = fellows_.emplace_back();
         fellow.player = {side, unum};
-        if (unum == options.players) fellow.proxy = std::make_unique<FaultProxy>(agentPort_);
+        if (unum == settings.players) fellow.proxy = std::make_unique<FaultProxy>(agentPort_);
       }
     }
     for (Fellow& fellow : fellows_) start(fellow);
@@ -67,10 +67,11 @@ class FaultSoak {
   Json run() {
     const StopSignal stopSignal;
     if (!awaitAll(kToBegin))
-      throw std::runtime_error("the match did not begin: " + missing() + " not in play; see " + options_.out);
+      throw std::runtime_error("the match did not begin: " + missing() + " not in play; see " +
+                               settings_.out);
     console_.say(fmt::format("{} players are there", fellows_.size()));
     for (const std::string& kind : plan()) {
-      pause(options_.pause * random_.uniform(0.5, 1.5));
+      pause(settings_.pause * random_.uniform(0.5, 1.5));
       if (StopSignal::came()) break;
       harm(kind);
     }
@@ -97,7 +98,7 @@ class FaultSoak {
 
   // -- processes
 
-  std::string file(const std::string& name) const { return (fs::path(options_.out) / name).string(); }
+  std::string file(const std::string& name) const { return (fs::path(settings_.out) / name).string(); }
 
   void startServer() {
     std::vector<std::string> command = {executablePath(), "serve",
@@ -189,8 +190,8 @@ class FaultSoak {
 
   std::vector<std::string> plan() {
     std::vector<std::string> all;
-    for (const std::string& kind : options_.kinds.empty() ? faultKinds() : options_.kinds)
-      all.insert(all.end(), static_cast<std::size_t>(options_.times), kind);
+    for (const std::string& kind : settings_.kinds.empty() ? faultKinds() : settings_.kinds)
+      all.insert(all.end(), static_cast<std::size_t>(settings_.times), kind);
     for (std::size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[random_.below(i)]);
     return all;
   }
@@ -226,11 +227,11 @@ class FaultSoak {
     departuresBefore_ = watch_->departures(fellow.player);
     (this->*what.action)(fellow, trouble);
     const Clock::time_point begin = Clock::now();
-    const bool back = awaitAll(options_.patience);
+    const bool back = awaitAll(settings_.patience);
     const double took = std::chrono::duration<double>(Clock::now() - begin).count();
     if (!back) {
       trouble += (trouble.empty() ? "" : "; ") + missing() +
-                 fmt::format(" not in play after {:.0f} s", options_.patience);
+                 fmt::format(" not in play after {:.0f} s", settings_.patience);
       awaitAll(kToBegin);
     }
     const double silence = watch_->longestSilence();
@@ -320,7 +321,7 @@ class FaultSoak {
     cut(fellow, trouble);
   }
 
-  FaultSoakOptions options_;
+  FaultSoakSettings settings_;
   Console& console_;
   Random random_;
   int agentPort_ = 0;
@@ -342,8 +343,8 @@ std::vector<std::string> faultKinds() {
           "delay", "repeat", "server", "full-disk", "lost-folder"};
 }
 
-Json soakFaults(const FaultSoakOptions& options, Console& console) {
-  return FaultSoak(options, console).run();
+Json soakFaults(const FaultSoakSettings& settings, Console& console) {
+  return FaultSoak(settings, console).run();
 }
 
 }  // namespace nonet::app

@@ -45,17 +45,17 @@ Json jsonFrom(const fs::path& path) {
 
 class MatchSoak {
  public:
-  MatchSoak(const MatchSoakOptions& options, Console& console) : options_(options), console_(console) {
-    fs::create_directories(options.out);
+  MatchSoak(const MatchSoakSettings& settings, Console& console) : settings_(settings), console_(console) {
+    fs::create_directories(settings.out);
     readPlayed();
   }
 
   bool run() {
     const StopSignal stopSignal;
     if (!played_.empty()) console_.say(fmt::format("resumed: {} matches are there", played_.size()));
-    for (int index = 0; index < options_.matches && !StopSignal::came(); ++index) {
+    for (int index = 0; index < settings_.matches && !StopSignal::came(); ++index) {
       if (done_.contains(index)) continue;
-      const Json line = play(soakMatch(options_, index));
+      const Json line = play(soakMatch(settings_, index));
       if (line.empty()) break;
       std::ofstream(file("matches.jsonl"), std::ios::app) << line.dump() << "\n";
       played_.push_back(line);
@@ -63,20 +63,20 @@ class MatchSoak {
     console_.end();
     const Json sum = sumUp(played_);
     std::ofstream(file("result.json")) << sum.dump(2) << "\n";
-    return static_cast<int>(played_.size()) == options_.matches && sum.value("faults", 1L) == 0;
+    return static_cast<int>(played_.size()) == settings_.matches && sum.value("faults", 1L) == 0;
   }
 
  private:
-  std::string file(const std::string& name) const { return (fs::path(options_.out) / name).string(); }
+  std::string file(const std::string& name) const { return (fs::path(settings_.out) / name).string(); }
 
   void readPlayed() {
     std::ifstream lines(file("matches.jsonl"));
     for (std::string line; std::getline(lines, line);) {
       const Json json = Json::parse(line, nullptr, false);  // the last one may be torn
-      if (!json.is_object() || json.value("index", -1) >= options_.matches) continue;
-      const SoakMatch match = soakMatch(options_, json.value("index", 0));
+      if (!json.is_object() || json.value("index", -1) >= settings_.matches) continue;
+      const SoakMatch match = soakMatch(settings_, json.value("index", 0));
       if (json.value("seed", std::uint64_t{0}) != match.seed)
-        throw std::runtime_error(options_.out +
+        throw std::runtime_error(settings_.out +
                                  " holds another soak: give the same options or another --out");
       if (done_.insert(match.index).second) played_.push_back(json);
     }
@@ -95,8 +95,8 @@ class MatchSoak {
     };
     add("--seed", match.seed);
     add("--players", match.players);
-    add("--minutes", options_.minutes);
-    add("--kick-off-wait", options_.kickOffWait);
+    add("--minutes", settings_.minutes);
+    add("--kick-off-wait", settings_.kickOffWait);
     if (match.realTime) command.emplace_back("--realtime");
     const Clock::time_point begin = Clock::now();
     MemoryWatch server;
@@ -126,7 +126,7 @@ class MatchSoak {
     addMemory(line, server.growth(), agents.growth());
     if (faulty) {
       console_.say(fmt::format("{} (seed {}): {}", name, match.seed, line.dump()));
-    } else if (!options_.keepLogs) {
+    } else if (!settings_.keepLogs) {
       tidy(name);
     }
     return line;
@@ -155,7 +155,7 @@ class MatchSoak {
     console_.progress(
         fmt::format("match {} of {} ({}, {} a side, seed {}), {:.0f} s; so far {} crashed, {} missing, {} "
                     "late, {} torn logs",
-                    match.index + 1, options_.matches, match.realTime ? "real time" : "lock-step",
+                    match.index + 1, settings_.matches, match.realTime ? "real time" : "lock-step",
                     match.players, match.seed, time, sum.value("crashed", 0L), sum.value("missing", 0L),
                     sum.value("late", 0L), sum.value("torn_logs", 0L)));
   }
@@ -175,7 +175,7 @@ class MatchSoak {
     for (const std::string ending : {".mon", ".txt", ".json"}) fs::remove(file(name + ending), ignored);
   }
 
-  MatchSoakOptions options_;
+  MatchSoakSettings settings_;
   Console& console_;
   std::vector<Json> played_;
   std::set<int> done_;
@@ -183,13 +183,13 @@ class MatchSoak {
 
 }  // namespace
 
-SoakMatch soakMatch(const MatchSoakOptions& options, int index) {
-  Random random = Random(options.seed).fork(static_cast<std::uint64_t>(index));
+SoakMatch soakMatch(const MatchSoakSettings& settings, int index) {
+  Random random = Random(settings.seed).fork(static_cast<std::uint64_t>(index));
   SoakMatch match;
   match.index = index;
   match.seed = random.next() % 1000000;  // short enough to be typed
-  match.realTime = random.uniform() < options.realTimeShare;
-  match.players = random.uniform() < options.elevenShare ? 11 : options.players;
+  match.realTime = random.uniform() < settings.realTimeShare;
+  match.players = random.uniform() < settings.elevenShare ? 11 : settings.players;
   return match;
 }
 
@@ -237,8 +237,8 @@ Json sumUp(const std::vector<Json>& matches) {
   return sum;
 }
 
-bool soakMatches(const MatchSoakOptions& options, Console& console) {
-  return MatchSoak(options, console).run();
+bool soakMatches(const MatchSoakSettings& settings, Console& console) {
+  return MatchSoak(settings, console).run();
 }
 
 }  // namespace nonet::app

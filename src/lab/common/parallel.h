@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
+
+#include "nonet/lab/common/progress.h"
 
 namespace nonet::lab {
 
@@ -22,6 +26,20 @@ void inParallel(int count, int threads, const Job& job) {
   for (int i = 1; i < workers; ++i) others.emplace_back(work);
   work();
   for (std::thread& other : others) other.join();
+}
+
+/// The same, and tells of each job that is done.
+template <class Job>
+void inParallel(int count, int threads, const TrialProgress& progress, const std::string& what,
+                const Job& job) {
+  std::mutex mutex;
+  int done = 0;
+  inParallel(count, threads, [&](int i) {
+    job(i);
+    if (!progress) return;
+    const std::lock_guard lock(mutex);
+    progress(what, ++done, count);
+  });
 }
 
 }  // namespace nonet::lab

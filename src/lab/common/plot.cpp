@@ -59,8 +59,14 @@ Axes axesOf(const Plot& plot, const PlotBox& box) {
     axes.x.include(curve.x);
     axes.y.include(curve.y);
   }
+  for (const PlotDots& dots : plot.dots) {
+    axes.x.include(dots.x);
+    axes.y.include(dots.y);
+  }
   axes.x.widen(0.0);
   axes.y.widen(0.06);
+  axes.x.low = plot.left.value_or(axes.x.low);
+  axes.x.high = plot.right.value_or(axes.x.high);
   axes.y.low = plot.low.value_or(axes.y.low);
   axes.y.high = plot.high.value_or(axes.y.high);
   return axes;
@@ -117,13 +123,18 @@ std::string bandOf(const PlotBand& band, const Axes& axes) {
   return fmt::format("<polygon fill='{}' fill-opacity='0.18' points='{}'/>\n", band.color, points);
 }
 
+std::string opacityOf(const PlotCurve& curve) {
+  return curve.opacity < 1.0 ? fmt::format(" stroke-opacity='{:.2g}'", curve.opacity) : "";
+}
+
 std::string curveOf(const PlotCurve& curve, const Axes& axes) {
   std::string svg;
   std::string points;
   const auto flush = [&] {
     if (!points.empty()) {
-      svg += fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}'{} points='{}'/>\n", curve.color,
-                         curve.width, curve.dashed ? " stroke-dasharray='5 3'" : "", points);
+      svg +=
+          fmt::format("<polyline fill='none' stroke='{}' stroke-width='{}'{}{} points='{}'/>\n", curve.color,
+                      curve.width, curve.dashed ? " stroke-dasharray='5 3'" : "", opacityOf(curve), points);
     }
     points.clear();
   };
@@ -136,6 +147,15 @@ std::string curveOf(const PlotCurve& curve, const Axes& axes) {
   }
   flush();
   return svg;
+}
+
+std::string dotsOf(const PlotDots& dots, const Axes& axes) {
+  std::string svg = fmt::format("<g fill='{}' fill-opacity='0.7'>", dots.color);
+  for (std::size_t i = 0; i < dots.x.size(); ++i) {
+    svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{:.1f}'/>", axes.atX(dots.x[i]),
+                       axes.atY(dots.y[i]), dots.radius);
+  }
+  return svg + "</g>\n";
 }
 
 std::string limitLines(const Plot& plot, const Axes& axes) {
@@ -176,15 +196,6 @@ std::string markLines(const Plot& plot, const Axes& axes) {
   return svg;
 }
 
-std::vector<LegendEntry> legendOf(const Plot& plot) {
-  std::vector<LegendEntry> entries;
-  for (const PlotCurve& curve : plot.curves)
-    if (!curve.name.empty()) entries.push_back({curve.name, curve.color, curve.dashed});
-  for (const PlotBand& band : plot.bands)
-    if (!band.name.empty()) entries.push_back({band.name, band.color, false});
-  return entries;
-}
-
 double widthOf(const LegendEntry& entry) {
   return 36.0 + kLetter * static_cast<double>(entry.name.size());
 }
@@ -197,6 +208,7 @@ std::string drawPlot(const Plot& plot, const PlotBox& box) {
   for (const PlotBand& band : plot.bands) svg += bandOf(band, axes);
   svg += limitLines(plot, axes) + markLines(plot, axes);
   for (const PlotCurve& curve : plot.curves) svg += curveOf(curve, axes);
+  for (const PlotDots& dots : plot.dots) svg += dotsOf(dots, axes);
   const std::vector<LegendEntry> entries = plot.legend ? legendOf(plot) : std::vector<LegendEntry>();
   double width = 0.0;
   for (const LegendEntry& entry : entries) width += widthOf(entry);
@@ -204,15 +216,37 @@ std::string drawPlot(const Plot& plot, const PlotBox& box) {
   return svg + "</g>\n";
 }
 
+PlotBox trueToScale(const Plot& plot, double left, double top, double width) {
+  const Axes axes = axesOf(plot, {});
+  return {left, top, width, width * (axes.y.high - axes.y.low) / (axes.x.high - axes.x.low)};
+}
+
+std::vector<LegendEntry> legendOf(const Plot& plot) {
+  std::vector<LegendEntry> entries;
+  const auto add = [&entries](const LegendEntry& entry) {
+    const bool known = std::any_of(entries.begin(), entries.end(),
+                                   [&entry](const LegendEntry& other) { return other.name == entry.name; });
+    if (!entry.name.empty() && !known) entries.push_back(entry);
+  };
+  for (const PlotCurve& curve : plot.curves) add({curve.name, curve.color, curve.dashed});
+  for (const PlotBand& band : plot.bands) add({band.name, band.color});
+  for (const PlotDots& dots : plot.dots) add({dots.name, dots.color, false, dots.radius});
+  return entries;
+}
+
 std::string drawLegend(const std::vector<LegendEntry>& entries, double x, double y) {
   if (entries.empty()) return "";
   std::string svg = "<g class='legend'>";
   for (const LegendEntry& entry : entries) {
-    svg += fmt::format(
-        "<line x1='{:.1f}' x2='{:.1f}' y1='{:.1f}' y2='{:.1f}' stroke='{}' stroke-width='2.5'{}/>"
-        "<text x='{:.1f}' y='{:.1f}'>{}</text>\n",
-        x, x + 18.0, y - 4.0, y - 4.0, entry.color, entry.dashed ? " stroke-dasharray='5 3'" : "", x + 22.0,
-        y, xmlText(entry.name));
+    const std::string sign =
+        entry.dot > 0.0
+            ? fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{:.1f}' fill='{}'/>", x + 9.0, y - 4.0,
+                          entry.dot, entry.color)
+            : fmt::format(
+                  "<line x1='{:.1f}' x2='{:.1f}' y1='{:.1f}' y2='{:.1f}' stroke='{}' "
+                  "stroke-width='2.5'{}/>",
+                  x, x + 18.0, y - 4.0, y - 4.0, entry.color, entry.dashed ? " stroke-dasharray='5 3'" : "");
+    svg += fmt::format("{}<text x='{:.1f}' y='{:.1f}'>{}</text>\n", sign, x + 22.0, y, xmlText(entry.name));
     x += widthOf(entry);
   }
   return svg + "</g>\n";

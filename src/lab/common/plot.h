@@ -1,5 +1,5 @@
-// Line plots as SVG: title, axes with units and ticks, legend, limits. Every picture of the laboratory that
-// has a time or a generation along its bottom is made of these.
+// Plots as SVG: title, axes with units and ticks, legend, limits. Every picture of the laboratory that has a
+// time, a generation or metres along its bottom is made of these.
 #pragma once
 
 #include <optional>
@@ -10,12 +10,22 @@
 namespace nonet::lab {
 
 struct PlotCurve {
-  std::string name;  // in the legend; empty: not there
+  std::string name;  // in the legend, once for all of this name; empty: not there
   std::string color;
   std::vector<double> x;
   std::vector<double> y;  // as many; NaN: a gap
   bool dashed = false;
   double width = 1.4;
+  double opacity = 1.0;
+};
+
+/// Single places.
+struct PlotDots {
+  std::string name;
+  std::string color;
+  std::vector<double> x;
+  std::vector<double> y;
+  double radius = 3.0;  // picture units
 };
 
 /// The area between two curves.
@@ -40,9 +50,12 @@ struct Plot {
   std::string yLabel;
   std::vector<PlotBand> bands;
   std::vector<PlotCurve> curves;
+  std::vector<PlotDots> dots;
   std::vector<PlotLine> marks;   // upright, at places of x
   std::vector<PlotLine> limits;  // level, at values of y; those out of the picture are left out
-  std::optional<double> low;     // of the y axis; otherwise the data decide
+  std::optional<double> left;    // of the x axis; otherwise the data decide
+  std::optional<double> right;
+  std::optional<double> low;  // of the y axis, likewise
   std::optional<double> high;
   std::vector<double> yTicks;  // empty: round numbers
   bool legend = true;
@@ -67,11 +80,17 @@ inline constexpr PlotMargin kPlotMargin;
 /// The plot as SVG elements, in a group of class "plot".
 std::string drawPlot(const Plot& plot, const PlotBox& box);
 
+/// A frame of this width in which a metre is as long upwards as along the bottom.
+PlotBox trueToScale(const Plot& plot, double left, double top, double width);
+
 struct LegendEntry {
   std::string name;
   std::string color;
   bool dashed = false;
+  double dot = 0.0;  // radius of a dot; 0: a line
 };
+/// What drawPlot() writes beside the title, for pictures that have one legend for several plots.
+std::vector<LegendEntry> legendOf(const Plot& plot);
 /// A line of entries that begins at (x, y).
 std::string drawLegend(const std::vector<LegendEntry>& entries, double x, double y);
 

@@ -31,7 +31,7 @@ motion::HeadRequest watch(const world::WorldState& world) {
 
 class BallEnv : public Env {
  public:
-  explicit BallEnv(EnvSetup setup) : setup_(std::move(setup)) {}
+  explicit BallEnv(EnvSettings settings) : settings_(std::move(settings)) {}
 
   std::size_t observations() const override { return kObservations; }
   std::size_t actions() const override { return kMostSpeed.size(); }
@@ -43,8 +43,8 @@ class BallEnv : public Env {
     target_ = scene.target;
     speed_ = std::make_shared<Pose2>();
     GameSituation situation = scene.situation;
-    situation.players = {fieldPlayer(setup_.agent, scene.start, mind())};
-    trial_ = std::make_unique<RecordedTrial>(setup_.server, situation, random.next());
+    situation.players = {fieldPlayer(settings_.agent, scene.start, mind())};
+    trial_ = std::make_unique<RecordedTrial>(settings_.server, situation, random.next());
     begin(scene);
   }
 
@@ -104,7 +104,7 @@ class BallEnv : public Env {
     };
   }
 
-  EnvSetup setup_;
+  EnvSettings settings_;
   Vector2 target_ = Vector2::Zero();
   std::shared_ptr<Pose2> speed_;
   std::unique_ptr<RecordedTrial> trial_;
@@ -162,11 +162,11 @@ class ReceiveEnv final : public BallEnv {
 
 }  // namespace
 
-std::unique_ptr<Env> makeDribbleEnv(const EnvSetup& setup) {
-  return std::make_unique<DribbleEnv>(setup);
+std::unique_ptr<Env> makeDribbleEnv(const EnvSettings& settings) {
+  return std::make_unique<DribbleEnv>(settings);
 }
-std::unique_ptr<Env> makeReceiveEnv(const EnvSetup& setup) {
-  return std::make_unique<ReceiveEnv>(setup);
+std::unique_ptr<Env> makeReceiveEnv(const EnvSettings& settings) {
+  return std::make_unique<ReceiveEnv>(settings);
 }
 
 }  // namespace nonet::lab

@@ -23,19 +23,20 @@ std::span<const EnvTask> envTasks() {
   return kTasks;
 }
 
-std::unique_ptr<Env> makeEnv(std::string_view task, const EnvSetup& setup) {
+std::unique_ptr<Env> makeEnv(std::string_view task, const EnvSettings& settings) {
   std::string known;
   for (const EnvTask& entry : envTasks()) {
-    if (entry.name == task) return entry.make(setup);
+    if (entry.name == task) return entry.make(settings);
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
   }
   throw std::runtime_error(fmt::format("unknown environment '{}': use one of {}", task, known));
 }
 
-EnvBatch::EnvBatch(std::string_view task, const EnvSetup& setup, int count, int threads, std::uint64_t seed)
+EnvBatch::EnvBatch(std::string_view task, const EnvSettings& settings, int count, int threads,
+                   std::uint64_t seed)
     : threads_(threads), seed_(seed) {
   if (count < 1) throw std::runtime_error("a batch needs at least one environment");
-  for (int i = 0; i < count; ++i) envs_.push_back({makeEnv(task, setup), 0});
+  for (int i = 0; i < count; ++i) envs_.push_back({makeEnv(task, settings), 0});
   observation_.resize(size() * observations());
   rewards_.resize(size());
   done_.resize(size());

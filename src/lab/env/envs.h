@@ -5,8 +5,8 @@
 
 namespace nonet::lab {
 
-std::unique_ptr<Env> makeDribbleEnv(const EnvSetup& setup);
-std::unique_ptr<Env> makeReceiveEnv(const EnvSetup& setup);
-std::unique_ptr<Env> makeRunEnv(const EnvSetup& setup);
+std::unique_ptr<Env> makeDribbleEnv(const EnvSettings& settings);
+std::unique_ptr<Env> makeReceiveEnv(const EnvSettings& settings);
+std::unique_ptr<Env> makeRunEnv(const EnvSettings& settings);
 
 }  // namespace nonet::lab

@@ -21,10 +21,10 @@ constexpr std::size_t kBody = 14;   // numbers beside the joints' angles and spe
 
 class RunEnv final : public Env {
  public:
-  explicit RunEnv(const EnvSetup& setup)
-      : setup_(trialSetup(setup.agent)), model_(model::robotModel(setup.agent.robotType)) {
+  explicit RunEnv(const EnvSettings& settings)
+      : setup_(trialSetup(settings.agent)), model_(model::robotModel(settings.agent.robotType)) {
     setup_.physics.solver =
-        setup.server.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
+        settings.server.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
     stand_ =
         motion::WalkEngine::standAngles(model_, setup_.motion.sets.of(setup_.motion.selection.standSet()));
   }
@@ -91,8 +91,8 @@ class RunEnv final : public Env {
 
 }  // namespace
 
-std::unique_ptr<Env> makeRunEnv(const EnvSetup& setup) {
-  return std::make_unique<RunEnv>(setup);
+std::unique_ptr<Env> makeRunEnv(const EnvSettings& settings) {
+  return std::make_unique<RunEnv>(settings);
 }
 
 }  // namespace nonet::lab

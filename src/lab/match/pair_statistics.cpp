@@ -1,5 +1,6 @@
 #include "nonet/lab/match/pair_statistics.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -66,7 +67,10 @@ Verdict SequentialTest::add(double value) {
   squares_ += before * (value - mean_);
   const double count = pairs_;
   const auto spread = [&](double claim) { return squares_ + count * (mean_ - claim) * (mean_ - claim); };
-  ratio_ = (count - 1.0) / 2.0 * std::log(spread(bounds_.low) / spread(bounds_.high));
+  const bool beyond = mean_ < bounds_.low || mean_ > bounds_.high;
+  ratio_ = (count - 1.0) / 2.0 *
+           std::log(spread(std::min(mean_, bounds_.low)) / spread(std::max(mean_, bounds_.high)));
+  if (beyond) ratio_ = std::copysign(std::max(0.0, std::abs(ratio_) - kPrice), ratio_);
   if (pairs_ < kFewestPairs) return verdict_;
   if (ratio_ >= bound()) verdict_ = Verdict::High;
   if (ratio_ <= -bound()) verdict_ = Verdict::Low;

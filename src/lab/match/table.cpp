@@ -17,21 +17,21 @@ std::string interval(const PairSummary& summary) {
   return summary.pairs < 2 ? "" : fmt::format("[{:+.2f}, {:+.2f}]", summary.low, summary.high);
 }
 
-std::string verdict(const TableChoice& table, const SeriesResult& result) {
+std::string verdict(const TableSettings& table, const SeriesResult& result) {
   if (!table.games.sequential) return "";
   if (result.verdict == Verdict::Open) return "undecided";
   const SequentialBounds& bounds = *table.games.sequential;
   return fmt::format("{:+g} accepted", result.verdict == Verdict::Low ? bounds.low : bounds.high);
 }
 
-std::size_t widest(const TableChoice& table) {
+std::size_t widest(const TableSettings& table) {
   std::size_t width = 8;
   for (const SideChoice& side : table.sides) width = std::max(width, side.name.size());
   return width;
 }
 
 // As the published table of one agent against its variants: the smallest difference first.
-std::string oneAgainstAll(const TableChoice& table, std::vector<const TableEntry*> entries) {
+std::string oneAgainstAll(const TableSettings& table, std::vector<const TableEntry*> entries) {
   std::stable_sort(entries.begin(), entries.end(), [](const TableEntry* left, const TableEntry* right) {
     if (!left->result || !right->result) return left->result.has_value() && !right->result;
     return left->result->difference.mean < right->result->difference.mean;
@@ -57,7 +57,7 @@ std::string oneAgainstAll(const TableChoice& table, std::vector<const TableEntry
 }
 
 // Row against column.
-std::string matrix(const TableChoice& table, const std::vector<TableEntry>& entries) {
+std::string matrix(const TableSettings& table, const std::vector<TableEntry>& entries) {
   const std::size_t width = std::max<std::size_t>(widest(table), 14);
   std::string text = fmt::format("{:<{}}", "", width);
   for (const SideChoice& side : table.sides) text += fmt::format("  {:<{}}", side.name, width);
@@ -89,7 +89,7 @@ std::vector<const TableEntry*> pointersTo(const std::vector<TableEntry>& entries
 
 }  // namespace
 
-std::vector<TableEntry> tableEntries(const TableChoice& table) {
+std::vector<TableEntry> tableEntries(const TableSettings& table) {
   std::vector<TableEntry> entries;
   for (std::size_t a = 0; a < table.sides.size(); ++a) {
     for (std::size_t b = table.against ? 0 : a + 1; b < table.sides.size(); ++b) {
@@ -99,7 +99,7 @@ std::vector<TableEntry> tableEntries(const TableChoice& table) {
   return entries;
 }
 
-SeriesChoice seriesOf(const TableChoice& table, const TableEntry& entry) {
+SeriesChoice seriesOf(const TableSettings& table, const TableEntry& entry) {
   SeriesChoice choice = table.games;
   choice.a = table.sides[entry.a];
   choice.b = table.sides[entry.b];
@@ -107,7 +107,7 @@ SeriesChoice seriesOf(const TableChoice& table, const TableEntry& entry) {
   return choice;
 }
 
-std::string tableText(const TableChoice& table, const std::vector<TableEntry>& entries) {
+std::string tableText(const TableSettings& table, const std::vector<TableEntry>& entries) {
   const SeriesChoice& games = table.games;
   std::string text = fmt::format("\n{}\n", table.title);
   if (table.against)
@@ -121,7 +121,7 @@ std::string tableText(const TableChoice& table, const std::vector<TableEntry>& e
   return text + oneAgainstAll(table, pointersTo(entries));
 }
 
-ordered_json tableJson(const TableChoice& table, const std::vector<TableEntry>& entries) {
+ordered_json tableJson(const TableSettings& table, const std::vector<TableEntry>& entries) {
   const SeriesChoice& games = table.games;
   ordered_json json = {{"title", table.title},
                        {"date", games.date},

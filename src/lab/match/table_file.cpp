@@ -93,7 +93,7 @@ SideChoice readSide(const toml::table& table, const std::string& path, const std
   return side;
 }
 
-void checkSides(const TableChoice& table, const std::string& path) {
+void checkSides(const TableSettings& table, const std::string& path) {
   std::set<std::string> names;
   for (const SideChoice& side : table.sides) {
     if (!names.insert(side.name).second)
@@ -105,14 +105,14 @@ void checkSides(const TableChoice& table, const std::string& path) {
 
 }  // namespace
 
-TableChoice readTable(const std::string& path, const std::string& dataFolder) {
+TableSettings readTable(const std::string& path, const std::string& dataFolder) {
   toml::table file;
   try {
     file = toml::parse_file(path);
   } catch (const toml::parse_error& error) {
     throw std::runtime_error(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
-  TableChoice table;
+  TableSettings table;
   SeriesChoice& games = table.games;
   games.place.clear();
   Reader reader(file, path);

@@ -18,11 +18,11 @@ namespace {
 
 // All trials of one skill; every skill has the same seeds.
 template <class Trial>
-auto repeated(const BallReportSettings& settings, const Trial& trial) {
+auto repeated(const BallReportSettings& settings, const char* skill, const Trial& trial) {
   using Result = decltype(trial(std::uint64_t{}));
   std::vector<Result> results(static_cast<std::size_t>(settings.trials));
   const Random seeds(settings.seed);
-  inParallel(settings.trials, settings.threads, [&](int i) {
+  inParallel(settings.trials, settings.threads, settings.progress, skill, [&](int i) {
     results[static_cast<std::size_t>(i)] = trial(seeds.fork(static_cast<std::uint64_t>(i)).next());
   });
   return results;
@@ -73,7 +73,7 @@ BallSkillReport reportOf(const char* skill, const std::vector<Result>& results,
 }
 
 BallSkillReport measureApproach(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials = repeated(s, [&](auto seed) { return approachOnce(s.agent, server, seed); });
+  const auto trials = repeated(s, "approach", [&](auto seed) { return approachOnce(s.agent, server, seed); });
   const auto arrived = [](const Approach& trial) { return trial.arrived; };
   return reportOf(
       "approach", trials,
@@ -83,7 +83,7 @@ BallSkillReport measureApproach(const BallReportSettings& s, const sim::Settings
 }
 
 BallSkillReport measureDribbling(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials = repeated(s, [&](auto seed) { return dribbleOnce(s.agent, server, seed); });
+  const auto trials = repeated(s, "dribble", [&](auto seed) { return dribbleOnce(s.agent, server, seed); });
   BallSkillReport report = reportOf(
       "dribble", trials,
       {figure("dribble_mps", "m/s of the ball over 10 m", trials, [](const auto& t) { return t.speed; })});
@@ -92,7 +92,7 @@ BallSkillReport measureDribbling(const BallReportSettings& s, const sim::Setting
 }
 
 BallSkillReport measureSlalom(const BallReportSettings& s, const sim::Settings& server, BallReport& all) {
-  auto trials = repeated(s, [&](auto seed) { return slalomOnce(s.agent, server, seed); });
+  auto trials = repeated(s, "slalom", [&](auto seed) { return slalomOnce(s.agent, server, seed); });
   BallSkillReport report = reportOf(
       "slalom", trials,
       {figure("slalom_mps", "m/s of the ball along the path", trials, [](const auto& t) { return t.speed; }),
@@ -104,7 +104,7 @@ BallSkillReport measureSlalom(const BallReportSettings& s, const sim::Settings& 
 }
 
 BallSkillReport measureDrive(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials = repeated(s, [&](auto seed) { return driveOnce(s.agent, server, seed); });
+  const auto trials = repeated(s, "drive", [&](auto seed) { return driveOnce(s.agent, server, seed); });
   return reportOf(
       "drive", trials,
       {figure("drive_m", "m nearer to the goal in 15 s", trials, [](const auto& t) { return t.gained; }),
@@ -112,7 +112,8 @@ BallSkillReport measureDrive(const BallReportSettings& s, const sim::Settings& s
 }
 
 BallSkillReport measureDuel(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials = repeated(s, [&](auto seed) { return duelOnce(s.agent, s.opponent, server, seed); });
+  const auto trials =
+      repeated(s, "duel", [&](auto seed) { return duelOnce(s.agent, s.opponent, server, seed); });
   return reportOf(
       "duel", trials,
       {figure("duel_share", "share won", trials, [](const auto& t) { return t.won; }),
@@ -121,7 +122,8 @@ BallSkillReport measureDuel(const BallReportSettings& s, const sim::Settings& se
 
 BallSkillReport measureAttack(const BallReportSettings& s, const sim::Settings& server) {
   const Defence defence{s.goalie, s.opponent};
-  const auto trials = repeated(s, [&](auto seed) { return attackOnce(s.agent, defence, server, seed); });
+  const auto trials =
+      repeated(s, "attack", [&](auto seed) { return attackOnce(s.agent, defence, server, seed); });
   const auto goal = [](const Attack& trial) { return trial.goal; };
   return reportOf(
       "attack", trials,
@@ -135,7 +137,7 @@ BallSkillReport measureAttack(const BallReportSettings& s, const sim::Settings& 
 }
 
 BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials = repeated(s, [&](auto seed) { return receiveOnce(s.agent, server, seed); });
+  const auto trials = repeated(s, "receive", [&](auto seed) { return receiveOnce(s.agent, server, seed); });
   return reportOf("receive", trials,
                   {figure("receive_share", "share held", trials, [](const auto& t) { return t.held; }),
                    figure("receive_rebound_m", "m from the robot after the touch", trials,
@@ -143,7 +145,7 @@ BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Setting
 }
 
 BallSkillReport measureRun(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials = repeated(s, [&](auto seed) { return runOnce(s.agent, server, seed); });
+  const auto trials = repeated(s, "run", [&](auto seed) { return runOnce(s.agent, server, seed); });
   return reportOf(
       "run", trials,
       {figure("run_mps", "m/s beyond 3 m, for 3 s", trials, [](const auto& t) { return t.speed; }),
@@ -179,7 +181,6 @@ BallReport measureBallSkills(const BallReportSettings& settings) {
   const std::vector<std::string> names =
       settings.skill == "all" ? ballSkillNames() : std::vector<std::string>{settings.skill};
   for (const std::string& name : names) {
-    if (settings.progress) settings.progress(name);
     report.skills.push_back(measure(name, settings, server, report));
   }
   return report;
@@ -218,54 +219,6 @@ std::string ballReportJson(const BallReport& report, const BallReportSettings& s
   }
   json["falls"] = {{"mean", trials > 0 ? static_cast<double>(falls) / trials : 0.0}, {"trials", trials}};
   return json.dump(2) + "\n";
-}
-
-std::string slalomSvg(const std::vector<Dribble>& slaloms) {
-  constexpr double kScale = 60.0;  // per m
-  constexpr double kLeft = 60.0;
-  constexpr double kMiddle = 200.0;
-  std::string out =
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 960 420' font-family='sans-serif' "
-      "font-size='13'>\n"
-      "<rect width='100%' height='100%' fill='white'/>\n<text x='20' y='24' font-size='16'>The ball's ways "
-      "in "
-      "the slalom: six turns of 60 degrees, 2 m apart</text>\n";
-  const auto polyline = [&](const auto& points, const char* color, const char* style) {
-    std::string text;
-    for (const Vector2& p : points)
-      text += fmt::format("{:.0f},{:.0f} ", kLeft + kScale * p.x(), kMiddle - kScale * p.y());
-    out += fmt::format("<polyline fill='none' stroke='{}' {} points='{}'/>\n", color, style, text);
-  };
-  bool drawn = false;
-  for (const Dribble& slalom : slaloms) {
-    if (slalom.path.corners.size() < 3) continue;
-    // All in one frame: from the begin along the middle line, the first turn to the right.
-    const std::vector<Vector2>& corners = slalom.path.corners;
-    const Vector2 middle = 0.5 * (corners[2] - corners[0]);
-    const Pose2 X_PW = Pose2(corners[0], std::atan2(middle.y(), middle.x())).inverse();
-    const double side = (X_PW * corners[1]).y() < 0.0 ? -1.0 : 1.0;
-    const auto inPath = [&](const Vector2& p) {
-      const Vector2 q = X_PW * p;
-      return Vector2(q.x(), side * q.y());
-    };
-    std::vector<Vector2> way;
-    for (const BallSample& sample : slalom.track) way.push_back(inPath(sample.ball));
-    polyline(way,
-             slalom.fell                      ? "#c33"
-             : slalom.lost || !slalom.arrived ? "#e90"
-                                              : "#27a",
-             "stroke-opacity='0.5'");
-    if (drawn) continue;
-    drawn = true;
-    std::vector<Vector2> path;
-    path.reserve(corners.size());
-    for (const Vector2& corner : corners) path.push_back(inPath(corner));
-    polyline(path, "#555", "stroke-dasharray='4 4'");
-  }
-  return out +
-         "<text x='20' y='400'>blue: kept within 0.5 m to the end; orange: lost; red: the robot fell; "
-         "dashed: "
-         "the path</text>\n</svg>\n";
 }
 
 }  // namespace nonet::lab

@@ -19,8 +19,6 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kShort = 2.0;  // m
-
 KickFigure figureOf(const std::vector<double>& sample) {
   if (sample.empty()) return {};
   return {mean(sample), quantile(sample, 0.5), quantile(sample, 0.1)};
@@ -38,7 +36,7 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks) {
   for (const Kick& kick : kicks) {
     s.falls += kick.fell ? share : 0.0;
     s.misses += kick.missed() ? share : 0.0;
-    s.under2m += kick.forward < kShort ? share : 0.0;
+    s.under2m += kick.tooShort() ? share : 0.0;
     distances.push_back(kick.forward);
     heights.push_back(kick.height);
     if (kick.missed()) continue;
@@ -56,22 +54,6 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks) {
 
 nlohmann::ordered_json jsonOf(const KickFigure& figure, double unit = 1.0) {
   return {{"mean", unit * figure.mean}, {"median", unit * figure.median}, {"p10", unit * figure.p10}};
-}
-
-// Metres to picture coordinates: forward to the right, left up.
-constexpr double kScale = 50.0;
-constexpr double kLeftEdge = 60.0;
-constexpr double kFarthest = 16.0;  // m shown
-constexpr double kMiddle = 190.0;   // of the view from above
-constexpr double kGround = 460.0;   // of the side view
-
-std::string pathOf(const std::vector<Vector3>& path, bool fromAbove, const char* color) {
-  std::string points;
-  for (const Vector3& p : path) {
-    const double y = fromAbove ? kMiddle - kScale * p.y() : kGround - kScale * p.z();
-    points += fmt::format("{:.0f},{:.0f} ", kLeftEdge + kScale * p.x(), y);
-  }
-  return fmt::format("<polyline fill='none' stroke='{}' stroke-opacity='0.5' points='{}'/>\n", color, points);
 }
 
 }  // namespace
@@ -99,7 +81,7 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
   const Random seeds(settings.seed);
   for (const std::string& name : names) {
     std::vector<Kick> kicks(static_cast<std::size_t>(settings.trials));
-    inParallel(settings.trials, settings.threads, [&](int i) {
+    inParallel(settings.trials, settings.threads, settings.progress, name, [&](int i) {
       KickScene scene;
       scene.kick = name == "any" ? "" : name;
       scene.start = settings.start;
@@ -144,36 +126,6 @@ std::string kickReportJson(const std::vector<KickStatistics>& report, const Kick
                     {"falls", s.falls}};
   }
   return json.dump(2) + "\n";
-}
-
-std::string kickReportSvg(const KickStatistics& kick) {
-  std::string out = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {:.0f} 500' font-family='sans-serif' "
-      "font-size='13'>\n"
-      "<rect width='100%' height='100%' fill='white'/>\n<text x='20' y='24' font-size='16'>{}: {} kicks, "
-      "{:.1f} m in the mean; above: from above, below: from the side (m)</text>\n",
-      kLeftEdge + kScale * kFarthest + 20.0, kick.name, kick.trials, kick.distance.mean);
-  for (int x = 0; x <= kFarthest; ++x) {
-    const double at = kLeftEdge + kScale * x;
-    out += fmt::format("<line x1='{0:.0f}' y1='40' x2='{0:.0f}' y2='{1:.0f}' stroke='#ddd'/>", at, kGround);
-    out += fmt::format("<text x='{:.0f}' y='480' text-anchor='middle'>{}</text>\n", at, x);
-  }
-  for (const double side : {-1.0, 0.0, 1.0}) {  // the target's direction, and ten degrees beside it
-    const double end = kFarthest * std::tan(side * toRadians(10.0));
-    out += fmt::format(
-        "<line x1='{:.0f}' y1='{:.0f}' x2='{:.0f}' y2='{:.0f}' stroke='#999' "
-        "stroke-dasharray='4 4'/>\n",
-        kLeftEdge, kMiddle, kLeftEdge + kScale * kFarthest, kMiddle - kScale * end);
-  }
-  out += fmt::format("<line x1='{0:.0f}' y1='{1:.0f}' x2='{2:.0f}' y2='{1:.0f}' stroke='#555'/>\n", kLeftEdge,
-                     kGround, kLeftEdge + kScale * kFarthest);
-  for (const Kick& one : kick.kicks) {
-    const char* color = one.fell ? "#c33" : one.forward < kShort ? "#e90" : "#27a";
-    out += pathOf(one.path, true, color) + pathOf(one.path, false, color);
-  }
-  return out +
-         "<text x='20' y='496'>blue: a kick; orange: under 2 m; red: the robot fell; dashed: 10 degrees "
-         "off</text>\n</svg>\n";
 }
 
 }  // namespace nonet::lab

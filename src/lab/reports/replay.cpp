@@ -100,8 +100,8 @@ std::optional<Quantiles> quantiles(const std::vector<double>& sample) {
 
 class Replay {
  public:
-  Replay(const std::string& path, const ReplayOptions& options, const agent::AgentConfig& config)
-      : options_(options), reader_(path), session_({config, true}) {
+  Replay(const std::string& path, const ReplaySettings& settings, const agent::AgentConfig& config)
+      : settings_(settings), reader_(path), session_({config, true}) {
     report_.file = path;
     report_.own = reader_.header().has_value();
   }
@@ -113,8 +113,8 @@ class Replay {
         received(line);
       } else if (line.kind == LogLine::Kind::Sent && report_.own) {
         compare(line);
-      } else if (line.kind == LogLine::Kind::Truth && options_.truthObserver) {
-        options_.truthObserver(line.text);
+      } else if (line.kind == LogLine::Kind::Truth && settings_.truthObserver) {
+        settings_.truthObserver(line.text);
       } else if (line.kind == LogLine::Kind::Other) {
         if (strangers_++ == 0) judgeStranger(line);
       }
@@ -138,7 +138,7 @@ class Replay {
     if (percept.unknownTokens > 0) nameUnknown(line);
     count(percept);
     if (percept.vision) compareWithTruth(*percept.vision);
-    if (options_.observer) options_.observer(session_);
+    if (settings_.observer) settings_.observer(session_);
   }
 
   // The parser drops what it does not know, so it is missing where the percept is written back.
@@ -241,7 +241,7 @@ class Replay {
     report_.ballError = quantiles(ballErrors_);
   }
 
-  const ReplayOptions& options_;
+  const ReplaySettings& settings_;
   protocol::LogReader reader_;
   agent::Session session_;
   ReplayReport report_;
@@ -264,19 +264,19 @@ nlohmann::ordered_json toJson(const std::optional<Quantiles>& error, double scal
   return {{"count", error->count}, {"median", error->median * scale}, {"p95", error->p95 * scale}};
 }
 
-agent::AgentConfig recordedAgent(const std::string& path, const ReplayOptions& options) {
+agent::AgentConfig recordedAgent(const std::string& path, const ReplaySettings& settings) {
   protocol::LogReader reader(path);
   LogLine line;
   if (reader.header()) {
-    if (options.unum || options.team || options.robotType) {
+    if (settings.unum || settings.team || settings.robotType) {
       throw protocol::LogError(
           path + ": --unum, --team and --type are for foreign logs; our own say who recorded them");
     }
-    agent::AgentConfig config = agent::agentFromLog(*reader.header(), options.dataFolder, path);
+    agent::AgentConfig config = agent::agentFromLog(*reader.header(), settings.dataFolder, path);
     while (reader.next(line) && line.kind == LogLine::Kind::Comment) {
       if (const auto start = agent::startFromComment(line.text)) config.startPose = start;
     }
-    for (const std::string& file : options.parameterFiles) config::overlayFile(config.parameters, file);
+    for (const std::string& file : settings.parameterFiles) config::overlayFile(config.parameters, file);
     return config;
   }
   Identity identity;
@@ -285,23 +285,23 @@ agent::AgentConfig recordedAgent(const std::string& path, const ReplayOptions& o
     identity.look(line);
   }
   agent::AgentChoice choice;
-  choice.unum = options.unum.value_or(identity.unum.value_or(0));
-  choice.team = options.team.value_or(identity.team.value_or("Nonet"));
-  choice.robotType = options.robotType.value_or(identity.robotType.value_or(0));
-  choice.parameterFiles = options.parameterFiles;
-  return agent::makeAgentConfig(choice, options.dataFolder);
+  choice.unum = settings.unum.value_or(identity.unum.value_or(0));
+  choice.team = settings.team.value_or(identity.team.value_or("Nonet"));
+  choice.robotType = settings.robotType.value_or(identity.robotType.value_or(0));
+  choice.parameterFiles = settings.parameterFiles;
+  return agent::makeAgentConfig(choice, settings.dataFolder);
 }
 
 }  // namespace
 
-agent::AgentConfig agentOfLog(const std::string& path, const ReplayOptions& options) {
-  agent::AgentConfig config = recordedAgent(path, options);
-  for (const std::string& text : options.assignments) config::assignParameter(config.parameters, text);
+agent::AgentConfig agentOfLog(const std::string& path, const ReplaySettings& settings) {
+  agent::AgentConfig config = recordedAgent(path, settings);
+  for (const std::string& text : settings.assignments) config::assignParameter(config.parameters, text);
   return config;
 }
 
-ReplayReport replay(const std::string& path, const ReplayOptions& options) {
-  return Replay(path, options, agentOfLog(path, options)).run();
+ReplayReport replay(const std::string& path, const ReplaySettings& settings) {
+  return Replay(path, settings, agentOfLog(path, settings)).run();
 }
 
 nlohmann::ordered_json ReplayReport::toJson() const {

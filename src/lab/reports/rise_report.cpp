@@ -21,7 +21,7 @@ RiseReport measureRising(const RiseReportSettings& settings) {
   const int count = static_cast<int>(kFallKindCount) * settings.falls;
   std::vector<Rise> rises(static_cast<std::size_t>(count));
   const Random seeds(settings.seed);
-  inParallel(count, settings.threads, [&](int i) {
+  inParallel(count, settings.threads, settings.progress, "falls", [&](int i) {
     const auto kind = static_cast<FallKind>(i / settings.falls);
     Rise& rise = rises[static_cast<std::size_t>(i)];
     // Some throws are caught or end otherwise than wanted: thrown again.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -37,37 +36,6 @@ nlohmann::ordered_json jsonOf(const SaveStatistics& s) {
   return {{"trials", s.trials},        {"saved", s.saved},        {"saved_share", s.savedShare()},
           {"touched", s.touched},      {"falls", s.falls},        {"up_after_fall", s.upAgain},
           {"down_mean_s", s.riseTime}, {"own_goals", s.ownGoals}, {"cleared", s.cleared}};
-}
-
-// Metres to picture coordinates: the goal at the left, left of the field up; below it the goal from the
-// front.
-constexpr double kScale = 50.0;
-constexpr double kLeftEdge = 60.0;
-constexpr double kMiddle = 330.0;
-constexpr double kGround = 760.0;
-constexpr double kFront = 380.0;  // middle of the goal from the front
-constexpr double kFrontScale = 150.0;
-
-std::string circle(double x, double y, double radius, const char* color) {
-  return fmt::format("<circle cx='{:.0f}' cy='{:.0f}' r='{:.0f}' fill='{}' fill-opacity='0.7'/>\n", x, y,
-                     radius, color);
-}
-
-std::string pictureOf(const Save& save) {
-  const char* color = save.saved ? "#27a" : "#c33";
-  std::string points;
-  for (const Vector3& p : save.path)
-    points += fmt::format("{:.0f},{:.0f} ", kLeftEdge + kScale * (p.x() + 15.0), kMiddle - kScale * p.y());
-  std::string out =
-      fmt::format("<polyline fill='none' stroke='{}' stroke-opacity='0.35' points='{}'/>\n", color, points);
-  const Vector2& start = save.X_WStart.translation;
-  out += circle(kLeftEdge + kScale * (start.x() + 15.0), kMiddle - kScale * start.y(), 2.0, "#555");
-  const auto crossing = freeCrossing(save.shot);
-  // From the front the left side of the own goal is on the right.
-  if (crossing)
-    out += circle(kFront + kFrontScale * crossing->y, kGround - kFrontScale * crossing->height,
-                  save.shot.kind == ShotKind::Rolling ? 3.0 : 5.0, color);
-  return out;
 }
 
 }  // namespace
@@ -108,16 +76,11 @@ SaveReport measureSaves(const SaveReportSettings& settings) {
   const Random seeds(settings.seed);
   SaveReport report;
   report.saves.resize(static_cast<std::size_t>(count));
-  std::mutex mutex;
-  int done = 0;
-  inParallel(count, settings.threads, [&](int i) {
+  inParallel(count, settings.threads, settings.progress, "shots", [&](int i) {
     Random random = seeds.fork(static_cast<std::uint64_t>(i));
     const Shot shot =
         challenge ? same[static_cast<std::size_t>(i % kChallengeShots)] : drawShot(kindOf(i), random);
     report.saves[static_cast<std::size_t>(i)] = saveOnce(settings.goalie, server, shot, random.next());
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (settings.progress) settings.progress(done, count);
   });
   report.rolling = saveStatistics(only(report.saves, ShotKind::Rolling));
   report.flying = saveStatistics(only(report.saves, ShotKind::Flying));
@@ -156,26 +119,6 @@ std::string saveReportJson(const SaveReport& report, const SaveReportSettings& s
                      {"cleared", save.cleared}});
   }
   return json.dump(2) + "\n";
-}
-
-std::string saveReportSvg(const SaveReport& report) {
-  std::string out = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 760 800' font-family='sans-serif' "
-      "font-size='13'>\n"
-      "<rect width='100%' height='100%' fill='white'/>\n<text x='20' y='24' font-size='16'>{} shots, {:.1f} "
-      "% "
-      "saved</text>\n<text x='20' y='44'>blue: saved; red: goal; grey: where the goalie stood; below: where "
-      "the "
-      "free ball crosses the line (small: rolling), seen from the field</text>\n",
-      report.all.trials, 100.0 * report.all.savedShare());
-  out +=
-      fmt::format("<rect x='{:.0f}' y='{:.1f}' width='{:.0f}' height='{:.0f}' fill='#eee' stroke='#555'/>\n",
-                  kLeftEdge - 0.6 * kScale, kMiddle - 1.05 * kScale, 0.6 * kScale, 2.1 * kScale);
-  out += fmt::format(
-      "<rect x='{:.1f}' y='{:.0f}' width='{:.0f}' height='{:.0f}' fill='#eee' stroke='#555'/>\n",
-      kFront - 1.05 * kFrontScale, kGround - 0.8 * kFrontScale, 2.1 * kFrontScale, 0.8 * kFrontScale);
-  for (const Save& save : report.saves) out += pictureOf(save);
-  return out + "</svg>\n";
 }
 
 }  // namespace nonet::lab

@@ -146,7 +146,7 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
   const Random seeds(settings.seed);
   std::unique_ptr<MeasuredRobot> remote;
   if (settings.server) remote = connectMeasuredRobot(settings.setup, *settings.server);
-  inParallel(count, remote ? 1 : settings.threads, [&](int i) {
+  inParallel(count, remote ? 1 : settings.threads, settings.progress, "walks", [&](int i) {
     const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
     std::unique_ptr<MeasuredRobot> own;
     if (!remote) {
@@ -187,7 +187,8 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
   report.turn = collect(directions + trials, count, &Walk::steady);
   for (const Walk& walk : walks) report.falls += walk.fell ? 1 : 0;
   if (settings.courses > 0) {
-    report.course = measureCourses(settings.setup, settings.seed, settings.courses, settings.threads);
+    report.course =
+        measureCourses(settings.setup, settings.seed, settings.courses, settings.threads, settings.progress);
   }
   return report;
 }

@@ -12,6 +12,8 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/lab/trial/true_pose.h"
 
+#include "lab/trial/trial_server.h"
+
 namespace nonet::lab {
 
 namespace {
@@ -77,12 +79,7 @@ struct Entry {
 sim::Settings prepared(sim::Settings settings) {
   settings.leftTeam = kLeftName;
   settings.rightTeam = kRightName;
-  settings.beamNoiseXY = 0.0;
-  settings.beamNoiseAngle = 0.0;
-  settings.startAnyFieldPosition = true;
-  settings.automaticKickOff = false;
-  settings.waitBeforeKickOff = 2.0 * kPreparation;
-  return settings;
+  return trialServer(std::move(settings), kPreparation);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kMiss = 0.3;      // m
+constexpr double kShort = 2.0;     // m
 constexpr double kLasts = 2.0;     // s after contact that the robot must stand
 constexpr double kRollsOut = 8.0;  // s, for a ball that flies and bounces
 constexpr int kBearings = 10;
@@ -51,6 +52,9 @@ void follow(GameTrial& trial, const Vector2& from, const Pose2& X_WAim, Kick& ki
 
 bool Kick::missed() const {
   return !contact || forward < kMiss;
+}
+bool Kick::tooShort() const {
+  return forward < kShort;
 }
 double Kick::direction() const {
   return std::atan2(aside, forward);

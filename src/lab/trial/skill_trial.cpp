@@ -17,6 +17,8 @@
 #include "nonet/sim/simulation.h"
 #include "nonet/world/ball_law.h"
 
+#include "lab/trial/trial_server.h"
+
 namespace nonet::lab {
 
 namespace {
@@ -28,16 +30,6 @@ constexpr double kRollsOut = 8.0;          // s, for a ball that flies and bounc
 constexpr double kTouched = 0.1;           // m/s: a ball that lies still has been touched
 constexpr double kMoves = toRadians(1.0);  // a joint that is told to change by less stays where it is
 
-sim::Settings quietServer() {
-  sim::Settings settings;
-  settings.beamNoiseXY = 0.0;
-  settings.beamNoiseAngle = 0.0;
-  settings.startAnyFieldPosition = true;
-  settings.automaticKickOff = false;
-  settings.waitBeforeKickOff = 2.0 * kPreparation;
-  return settings;
-}
-
 // A robot on a field of its own, with the motion's player and joint control.
 class Stage {
  public:
@@ -46,7 +38,7 @@ class Stage {
         robot_(agent::robotConfig(settings.agent)),
         library_(settings.agent.skillFolder, settings.agent.parameters.motion.skills),
         player_(robot_.model(), library_, standOf(settings.agent)),
-        simulation_(quietServer(), settings.agent.seed) {
+        simulation_(trialServer({}, kPreparation), settings.agent.seed) {
     if (library_.find(settings.skill) < 0) {
       throw std::runtime_error(fmt::format("there is no skill '{}' in {}: use one of {}", settings.skill,
                                            settings.agent.skillFolder, fmt::join(names(), ", ")));

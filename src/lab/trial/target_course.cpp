@@ -338,11 +338,12 @@ CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const Course
   return Walker(setup, seed, options).run(course);
 }
 
-CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads) {
+CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads,
+                             const TrialProgress& progress) {
   constexpr int kWays = 3;  // in time, until every target is reached, with changing sets
   std::array<std::vector<CourseResult>, kWays> results;
   for (auto& way : results) way.resize(static_cast<std::size_t>(courses));
-  inParallel(kWays * courses, threads, [&](int i) {
+  inParallel(kWays * courses, threads, progress, "courses", [&](int i) {
     const int course = i / kWays;
     const std::uint64_t courseSeed = Random(seed).fork(static_cast<std::uint64_t>(course)).next();
     TrialSetup own = setup;

@@ -76,6 +76,31 @@ TEST(Plots, PutValuesWhereTheAxesSay) {
               HasSubstr("points='100.0,130.0 200.0,90.0 300.0,50.0 '"));
 }
 
+// A metre is as long upwards as along: 4 m by 2 m in a frame 200 wide.
+TEST(Plots, TrueToScaleHaveTheHeightThatTheirRangesAsk) {
+  Plot plot;
+  plot.left = -1.0;
+  plot.right = 3.0;
+  plot.low = 0.0;
+  plot.high = 2.0;
+  plot.dots = {{"spots", "blue", {0.0, 1.0}, {1.0, 2.0}, 3.0}};
+  const PlotBox box = trueToScale(plot, 60.0, 20.0, 200.0);
+  EXPECT_DOUBLE_EQ(box.height, 100.0);
+  const std::string svg = drawPlot(plot, box);
+  EXPECT_THAT(svg, HasSubstr("<circle cx='110.0' cy='70.0' r='3.0'/><circle cx='160.0' cy='20.0'"));
+}
+
+TEST(Plots, NameEachKindOnceInTheLegend) {
+  Plot plot;
+  plot.curves = {{"kick", "blue", {0.0}, {0.0}}, {"kick", "blue", {0.0}, {1.0}}, {"", "red", {0.0}, {1.0}}};
+  plot.dots = {{"goalie", "grey", {0.0}, {0.0}, 2.0}};
+  const std::vector<LegendEntry> legend = legendOf(plot);
+  ASSERT_EQ(legend.size(), 2U);
+  EXPECT_EQ(legend[0].name, "kick");
+  EXPECT_EQ(legend[1].dot, 2.0);
+  EXPECT_THAT(drawLegend(legend, 0.0, 0.0), HasSubstr("r='2.0' fill='grey'"));
+}
+
 TEST(Plots, OfNothingAreEmpty) {
   Plot plot;
   plot.curves = {{"none", "blue", {}, {}, false}};

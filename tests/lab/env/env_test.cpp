@@ -12,16 +12,16 @@
 namespace nonet::lab {
 namespace {
 
-EnvSetup setup() {
-  EnvSetup setup;
-  setup.agent = agent::makeAgentConfig({}, NONET_SOURCE_DIR);
-  setup.server.quickSolver = true;
-  return setup;
+EnvSettings settings() {
+  EnvSettings settings;
+  settings.agent = agent::makeAgentConfig({}, NONET_SOURCE_DIR);
+  settings.server.quickSolver = true;
+  return settings;
 }
 
 TEST(Env, TheBatchDoesNotDependOnThreads) {
-  EnvBatch one("receive", setup(), 3, 1, 7);
-  EnvBatch three("receive", setup(), 3, 3, 7);
+  EnvBatch one("receive", settings(), 3, 1, 7);
+  EnvBatch three("receive", settings(), 3, 3, 7);
   std::vector<float> actions(3 * one.actions());
   bool ended = false;
   for (int i = 0; i < 80; ++i) {
@@ -42,7 +42,7 @@ TEST(Env, TheBatchDoesNotDependOnThreads) {
 
 // Straight ahead the robot runs into the ball half a metre before it, and the ball goes on along the line.
 TEST(Env, DribblingForwardEarnsMetres) {
-  const std::unique_ptr<Env> env = makeEnv("dribble", setup());
+  const std::unique_ptr<Env> env = makeEnv("dribble", settings());
   env->reset(3);
   std::vector<float> seen(env->observations());
   env->observe(seen);
@@ -59,7 +59,7 @@ TEST(Env, DribblingForwardEarnsMetres) {
 }
 
 TEST(Env, RunningIsStandingWithoutAction) {
-  const std::unique_ptr<Env> env = makeEnv("run", setup());
+  const std::unique_ptr<Env> env = makeEnv("run", settings());
   env->reset(1);
   EXPECT_EQ(env->actions(), 22U);
   std::vector<float> seen(env->observations());
@@ -83,8 +83,8 @@ TEST(Env, RunningIsStandingWithoutAction) {
 }
 
 TEST(Env, UnknownNamesAndWrongSizesAreNamed) {
-  EXPECT_THROW(makeEnv("fly", setup()), std::runtime_error);
-  EnvBatch batch("run", setup(), 1, 1, 1);
+  EXPECT_THROW(makeEnv("fly", settings()), std::runtime_error);
+  EnvBatch batch("run", settings(), 1, 1, 1);
   EXPECT_THROW(batch.step(std::vector<float>(3)), std::runtime_error);
 }
 

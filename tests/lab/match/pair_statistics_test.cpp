@@ -1,5 +1,6 @@
 #include "nonet/lab/match/pair_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -32,7 +33,7 @@ TEST(SequentialBounds, AreReadOrExplained) {
   }
 }
 
-// The formula with all values at hand, as it stands in the header.
+// The formula with all values at hand, as it stands in the header. Values between the claims and beyond them.
 TEST(SequentialTest, RatioIsThatOfAllValuesAtOnce) {
   Random random(7);
   SequentialTest test({0.0, 1.0}, 0.5);
@@ -45,13 +46,30 @@ TEST(SequentialTest, RatioIsThatOfAllValuesAtOnce) {
     double about0 = 0.25;
     double about1 = 0.25;
     for (const double value : values) {
-      about0 += value * value;
-      about1 += (value - 1.0) * (value - 1.0);
+      about0 += std::pow(value - std::min(0.0, mean), 2);
+      about1 += std::pow(value - std::max(1.0, mean), 2);
     }
-    EXPECT_NEAR(test.logLikelihoodRatio(),
-                (static_cast<double>(values.size()) - 1.0) / 2.0 * std::log(about0 / about1), 1e-9);
+    double ratio = (static_cast<double>(values.size()) - 1.0) / 2.0 * std::log(about0 / about1);
+    const double price = mean < 0.0 || mean > 1.0 ? SequentialTest::kPrice : 0.0;
+    ratio = ratio > 0.0 ? std::max(0.0, ratio - price) : std::min(0.0, ratio + price);
+    EXPECT_NEAR(test.logLikelihoodRatio(), ratio, 1e-9);
   }
   EXPECT_GE(values.size(), 6U);
+}
+
+// Nine goals in ten minutes are as far from half a goal as from none, but they are no riddle.
+TEST(SequentialTest, WhatIsObviousIsDecidedAtOnce) {
+  for (const double sign : {-1.0, 1.0}) {
+    Random random(3);
+    SequentialTest test({0.0, 0.5}, 0.5);
+    int pairs = 0;
+    while (test.verdict() == Verdict::Open && pairs < 100) {
+      test.add(random.normal(9.0 * sign, 3.0));
+      ++pairs;
+    }
+    EXPECT_EQ(test.verdict(), sign > 0.0 ? Verdict::High : Verdict::Low);
+    EXPECT_LE(pairs, 7);
+  }
 }
 
 TEST(SequentialTest, EqualPairsAreNotPairsWithoutSpread) {

@@ -24,7 +24,7 @@ class TableFile {
   ~TableFile() { fs::remove(path_); }
   TableFile(const TableFile&) = delete;
   TableFile& operator=(const TableFile&) = delete;
-  TableChoice read() const { return readTable(path_.string(), NONET_SOURCE_DIR); }
+  TableSettings read() const { return readTable(path_.string(), NONET_SOURCE_DIR); }
   std::string error() const {
     try {
       read();
@@ -65,7 +65,7 @@ SeriesResult resultOf(std::vector<double> pairs, int wins, int losses) {
 }
 
 TEST(Table, IsReadFromAFile) {
-  const TableChoice table = TableFile(kThree).read();
+  const TableSettings table = TableFile(kThree).read();
   ASSERT_EQ(table.sides.size(), 3U);
   EXPECT_FALSE(table.against);
   EXPECT_EQ(table.games.pairs, 7);
@@ -79,7 +79,7 @@ TEST(Table, IsReadFromAFile) {
 }
 
 TEST(Table, EverybodyAgainstEverybodyOrOneAgainstAll) {
-  TableChoice table = TableFile(kThree).read();
+  TableSettings table = TableFile(kThree).read();
   EXPECT_EQ(tableEntries(table).size(), 3U);
   table = TableFile(std::string("against = 'boxes'\n") + kThree).read();
   const std::vector<TableEntry> entries = tableEntries(table);
@@ -101,7 +101,7 @@ TEST(Table, ErrorsNameTheLine) {
 }
 
 TEST(Table, ShowsDifferencesFromTheSideOfTheRow) {
-  const TableChoice table = TableFile(kThree).read();
+  const TableSettings table = TableFile(kThree).read();
   std::vector<TableEntry> entries = tableEntries(table);
   entries[0].result = resultOf({1.0, 2.0, 3.0}, 5, 1);
   entries[0].result->verdict = Verdict::High;
@@ -119,7 +119,7 @@ TEST(Table, ShowsDifferencesFromTheSideOfTheRow) {
 }
 
 TEST(Table, OneAgainstAllBeginsWithTheSmallestDifference) {
-  const TableChoice table = TableFile(std::string("against = 'full'\n") + kThree).read();
+  const TableSettings table = TableFile(std::string("against = 'full'\n") + kThree).read();
   std::vector<TableEntry> entries = tableEntries(table);
   entries[0].result = resultOf({1.0, 2.0, 3.0}, 5, 1);
   entries[1].result = resultOf({0.5, 0.5, 0.2}, 3, 1);

@@ -102,12 +102,12 @@ TEST(LocalizationReport, TruthOfAnotherMomentChangesNothing) {
 
 TEST(LocalizationReport, EveryVisionMessageOfALogCounts) {
   LocalizationReport report;
-  ReplayOptions options;
-  options.dataFolder = NONET_SOURCE_DIR;
-  options.observer = [&](const agent::Session& session) {
+  ReplaySettings settings;
+  settings.dataFolder = NONET_SOURCE_DIR;
+  settings.observer = [&](const agent::Session& session) {
     report.add(session.percept(), session.agent().world());
   };
-  const ReplayReport replayed = replay(NONET_TEST_DATA "/replay/match_start.log.gz", options);
+  const ReplayReport replayed = replay(NONET_TEST_DATA "/replay/match_start.log.gz", settings);
   EXPECT_EQ(report.summary().frames, static_cast<std::size_t>(replayed.perceptors.at("See")));
   EXPECT_NEAR(report.summary().position.median, replayed.positionError->median, 1e-9);
   EXPECT_LT(report.summary().position.median, 0.01);

@@ -14,10 +14,10 @@ namespace {
 
 const std::string kData = NONET_TEST_DATA "/replay/";
 
-ReplayOptions options() {
-  ReplayOptions options;
-  options.dataFolder = NONET_SOURCE_DIR;
-  return options;
+ReplaySettings settings() {
+  ReplaySettings settings;
+  settings.dataFolder = NONET_SOURCE_DIR;
+  return settings;
 }
 
 class Folder {
@@ -61,7 +61,7 @@ agent::AgentConfig someAgent() {
 
 TEST(Replay, RecordingsOfTheServerAreUnderstoodCompletely) {
   for (const std::string name : {"match_start.log.gz", "crowd.log.gz"}) {
-    const ReplayReport report = replay(kData + name, options());
+    const ReplayReport report = replay(kData + name, settings());
     EXPECT_FALSE(report.own);
     EXPECT_EQ(report.counts.unknownTokens, 0) << name;
     EXPECT_EQ(report.roundtripDifferences, 0) << name;
@@ -77,11 +77,11 @@ TEST(Replay, RecordingsOfTheServerAreUnderstoodCompletely) {
 }
 
 TEST(Replay, FindsOutWhoRecordedAForeignLog) {
-  const agent::AgentConfig fromHandshake = agentOfLog(kData + "match_start.log.gz", options());
+  const agent::AgentConfig fromHandshake = agentOfLog(kData + "match_start.log.gz", settings());
   EXPECT_EQ(fromHandshake.unum, 7);
   EXPECT_EQ(fromHandshake.team, "Blue");
   EXPECT_EQ(fromHandshake.robotType, 3);
-  const agent::AgentConfig fromArms = agentOfLog(kData + "crowd.log.gz", options());
+  const agent::AgentConfig fromArms = agentOfLog(kData + "crowd.log.gz", settings());
   EXPECT_EQ(fromArms.unum, 1);
   EXPECT_EQ(fromArms.team, "Probe");
 }
@@ -91,7 +91,7 @@ TEST(Replay, OwnLogsComeOutByteForByte) {
   agent::AgentConfig config = someAgent();
   config.startPose = Pose2(-3.25, 1.5, 0.1);
   record(kData + "match_start.log.gz", folder.file("own.zst"), config);
-  const ReplayReport report = replay(folder.file("own.zst"), options());
+  const ReplayReport report = replay(folder.file("own.zst"), settings());
   EXPECT_TRUE(report.own);
   EXPECT_EQ(report.counts.messages, 400);
   EXPECT_EQ(report.effectorDifferences, 0);
@@ -102,7 +102,7 @@ TEST(Replay, OwnLogsComeOutByteForByte) {
 TEST(Replay, PassedOverMessagesAreReplayedAsSuch) {
   const Folder folder;
   record(kData + "match_start.log.gz", folder.file("late.zst"), someAgent(), 7);
-  const ReplayReport report = replay(folder.file("late.zst"), options());
+  const ReplayReport report = replay(folder.file("late.zst"), settings());
   EXPECT_EQ(report.effectorDifferences, 0);
   EXPECT_EQ(report.counts.passedOver, 400 / 7);
 }
@@ -126,7 +126,7 @@ TEST(Replay, NamesTheFirstDifference) {
     changed << marks[static_cast<int>(line.kind)] << ' ' << text << '\n';
   }
   changed.close();
-  const ReplayReport report = replay(folder.file("changed.log"), options());
+  const ReplayReport report = replay(folder.file("changed.log"), settings());
   EXPECT_EQ(report.effectorDifferences, 1);
   ASSERT_TRUE(report.firstDifference.has_value());
   EXPECT_EQ(report.firstDifference->line, changedLine);
@@ -139,7 +139,7 @@ TEST(Replay, TornLogsAreReplayedAsFarAsTheyGo) {
   record(kData + "match_start.log.gz", folder.file("own.zst"), someAgent());
   const auto size = std::filesystem::file_size(folder.file("own.zst"));
   std::filesystem::resize_file(folder.file("own.zst"), size * 2 / 3);
-  const ReplayReport report = replay(folder.file("own.zst"), options());
+  const ReplayReport report = replay(folder.file("own.zst"), settings());
   EXPECT_NE(report.problem, "");
   EXPECT_GT(report.counts.messages, 100);
   EXPECT_LT(report.counts.messages, 400);
@@ -147,7 +147,7 @@ TEST(Replay, TornLogsAreReplayedAsFarAsTheyGo) {
 }
 
 TEST(Replay, JsonHasThePromisedKeys) {
-  const nlohmann::ordered_json json = replay(kData + "crowd.log.gz", options()).toJson();
+  const nlohmann::ordered_json json = replay(kData + "crowd.log.gz", settings()).toJson();
   for (const char* key :
        {"file", "messages", "unknown", "roundtrip_differences", "lost_cycles", "effector_differences"}) {
     EXPECT_TRUE(json.contains(key)) << key;
@@ -158,7 +158,7 @@ TEST(Replay, JsonHasThePromisedKeys) {
 
 TEST(Replay, MissingFilesAreNamed) {
   try {
-    replay("/nowhere/at.all", options());
+    replay("/nowhere/at.all", settings());
     FAIL();
   } catch (const protocol::LogError& error) {
     EXPECT_NE(std::string(error.what()).find("/nowhere/at.all"), std::string::npos);

@@ -47,7 +47,8 @@ TEST(SaveReport, DoesNotDependOnTheNumberOfThreadsAndSpeaksJson) {
   settings.quickSolver = true;
   settings.threads = 1;
   int calls = 0;
-  settings.progress = [&](int done, int all) {
+  settings.progress = [&](const std::string& what, int done, int all) {
+    EXPECT_EQ(what, "shots");
     EXPECT_EQ(done, ++calls);
     EXPECT_EQ(all, 4);
   };

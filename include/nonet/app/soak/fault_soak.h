@@ -12,7 +12,7 @@
 
 namespace nonet::app {
 
-struct FaultSoakOptions {
+struct FaultSoakSettings {
   int times = 5;           // each kind of fault
   int players = 3;         // a side, 2..11
   double pause = 3.0;      // s between two faults, half of it to one and a half of it
@@ -27,6 +27,6 @@ std::vector<std::string> faultKinds();
 
 /// Plays a match in real time and harms it. The result: per kind how often, how many came back in time and
 /// with all others in play, the longest time that took (s), and what went wrong in words.
-nlohmann::ordered_json soakFaults(const FaultSoakOptions& options, Console& console);
+nlohmann::ordered_json soakFaults(const FaultSoakSettings& settings, Console& console);
 
 }  // namespace nonet::app

@@ -10,7 +10,7 @@
 
 namespace nonet::app {
 
-struct MatchSoakOptions {
+struct MatchSoakSettings {
   int matches = 100;
   double minutes = 10.0;       // of game time each
   int players = 9;             // a side
@@ -29,7 +29,7 @@ struct SoakMatch {
   int players = 9;
   std::uint64_t seed = 1;
 };
-SoakMatch soakMatch(const MatchSoakOptions& options, int index);
+SoakMatch soakMatch(const MatchSoakSettings& settings, int index);
 
 /// What a line of matches.jsonl holds for a match with this result of `nonet match`, and nothing about files
 /// and memory. A crash: somebody ended by a signal or an error; missing: never came; late: a message answered
@@ -41,6 +41,6 @@ nlohmann::ordered_json sumUp(const std::vector<nlohmann::ordered_json>& matches)
 
 /// Plays those that are not in matches.jsonl yet. True if all were played, and without a fault; in real time
 /// a late message is counted, but is none. False as well after a signal.
-bool soakMatches(const MatchSoakOptions& options, Console& console);
+bool soakMatches(const MatchSoakSettings& settings, Console& console);
 
 }  // namespace nonet::app

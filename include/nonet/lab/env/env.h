@@ -16,7 +16,7 @@
 
 namespace nonet::lab {
 
-struct EnvSetup {
+struct EnvSettings {
   agent::AgentConfig agent;
   sim::Settings server;
 };
@@ -43,17 +43,17 @@ class Env {
 struct EnvTask {
   std::string_view name;
   std::string_view description;
-  std::unique_ptr<Env> (*make)(const EnvSetup& setup);
+  std::unique_ptr<Env> (*make)(const EnvSettings& settings);
 };
 std::span<const EnvTask> envTasks();
 /// Throws std::runtime_error that lists the known names.
-std::unique_ptr<Env> makeEnv(std::string_view task, const EnvSetup& setup);
+std::unique_ptr<Env> makeEnv(std::string_view task, const EnvSettings& settings);
 
 /// Several environments that step together. An episode that has ended is followed by the next one at once:
 /// its last reward comes with the first observation of the next.
 class EnvBatch {
  public:
-  EnvBatch(std::string_view task, const EnvSetup& setup, int count, int threads, std::uint64_t seed);
+  EnvBatch(std::string_view task, const EnvSettings& settings, int count, int threads, std::uint64_t seed);
 
   std::size_t size() const { return envs_.size(); }
   std::size_t observations() const { return envs_.front().env->observations(); }

@@ -20,7 +20,7 @@ struct PairSummary {
 };
 PairSummary summarizePairs(std::span<const double> values);
 
-/// Two claims about the true mean: `low` and `high`, goals per ten minutes, low < high.
+/// Two claims about the true mean: at most `low`, at least `high`, goals per ten minutes, low < high.
 struct SequentialBounds {
   double low = 0.0;
   double high = 0.0;
@@ -30,7 +30,7 @@ SequentialBounds parseSequentialBounds(std::string_view text);
 
 enum class Verdict : std::uint8_t {
   Open,  // go on
-  Low,   // the mean is `low` rather than `high`
+  Low,   // the mean is `low` or less, rather than `high` or more
   High,
 };
 std::string_view verdictName(Verdict verdict);  // "open", "low", "high"
@@ -42,6 +42,10 @@ std::string_view verdictName(Verdict verdict);  // "open", "low", "high"
 ///
 ///     log ratio = (n - 1) / 2 * log((S + n (m - low)^2) / (S + n (m - high)^2))
 ///
+/// A claim that the mean surpasses is taken at the mean: a difference far beyond both would otherwise look
+/// almost as unlikely under the one as under the other, and take fifty pairs instead of six. For a claim that
+/// is chosen after the values the ratio is brought kPrice nearer to zero.
+///
 /// Both kinds of error stay near or below 5 % (the tests simulate them). Goals are whole numbers: a few equal
 /// pairs must not pass for pairs without spread, so S begins at the square of `resolution`, the value of one
 /// goal in one pair, and nothing is decided before kFewestPairs.
@@ -49,6 +53,7 @@ class SequentialTest {
  public:
   static constexpr int kFewestPairs = 6;
   static constexpr double kError = 0.05;  // of each kind
+  static constexpr double kPrice = 1.0;   // found by simulation
 
   SequentialTest(const SequentialBounds& bounds, double resolution);
 

@@ -26,7 +26,7 @@
 
 namespace nonet::lab {
 
-struct TableChoice {
+struct TableSettings {
   std::string title;
   std::vector<SideChoice> sides;
   std::optional<std::size_t> against;  // index of the one against all; empty: everybody against everybody
@@ -35,7 +35,7 @@ struct TableChoice {
 
 /// Throws std::runtime_error that names file and line, or the key that is wrong. Paths in the file are seen
 /// from its folder.
-TableChoice readTable(const std::string& path, const std::string& dataFolder);
+TableSettings readTable(const std::string& path, const std::string& dataFolder);
 
 /// One entry: A against B, indices of sides.
 struct TableEntry {
@@ -45,11 +45,11 @@ struct TableEntry {
 };
 
 /// All entries, nothing played yet.
-std::vector<TableEntry> tableEntries(const TableChoice& table);
-SeriesChoice seriesOf(const TableChoice& table, const TableEntry& entry);
+std::vector<TableEntry> tableEntries(const TableSettings& table);
+SeriesChoice seriesOf(const TableSettings& table, const TableEntry& entry);
 
 /// Goal difference per ten minutes with standard error, games won, tied and lost.
-std::string tableText(const TableChoice& table, const std::vector<TableEntry>& entries);
-nlohmann::ordered_json tableJson(const TableChoice& table, const std::vector<TableEntry>& entries);
+std::string tableText(const TableSettings& table, const std::vector<TableEntry>& entries);
+nlohmann::ordered_json tableJson(const TableSettings& table, const std::vector<TableEntry>& entries);
 
 }  // namespace nonet::lab

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "nonet/lab/common/progress.h"
 #include "nonet/lab/common/statistics.h"
 #include "nonet/lab/trial/ball_trial.h"
 
@@ -21,7 +21,7 @@ struct BallReportSettings {
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors
   bool quickSolver = false;
-  std::function<void(const std::string&)> progress;  // told the name of each skill as it begins
+  TrialProgress progress{};
 };
 
 /// One row: what counts, over all trials of a skill.
@@ -53,6 +53,7 @@ std::vector<std::string> ballSkillNames();
 BallReport measureBallSkills(const BallReportSettings& settings);
 std::string ballReportTable(const BallReport& report);
 std::string ballReportJson(const BallReport& report, const BallReportSettings& settings);
-std::string slalomSvg(const std::vector<Dribble>& slaloms);
+/// The balls' ways through it, all with the first turn to the right.
+std::string slalomSvg(const std::vector<Dribble>& slaloms, const BallReportSettings& settings);
 
 }  // namespace nonet::lab

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "nonet/lab/common/progress.h"
 #include "nonet/lab/trial/kick_trial.h"
 
 namespace nonet::lab {
@@ -20,6 +21,7 @@ struct KickReportSettings {
   double distance = 10.0;    // m, how far the ball is wanted to go
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it
+  TrialProgress progress{};
 };
 
 /// A figure over many kicks.
@@ -51,6 +53,6 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings);
 std::string kickReportTable(const std::vector<KickStatistics>& report);
 std::string kickReportJson(const std::vector<KickStatistics>& report, const KickReportSettings& settings);
 /// The balls' ways from above and from the side.
-std::string kickReportSvg(const KickStatistics& kick);
+std::string kickReportSvg(const KickStatistics& kick, const KickReportSettings& settings);
 
 }  // namespace nonet::lab

@@ -19,7 +19,7 @@
 
 namespace nonet::lab {
 
-struct ReplayOptions {
+struct ReplaySettings {
   std::string dataFolder;  // holds params/ and skills/
   // For foreign logs; what the log's own (scene ..) and (init ..) say comes first.
   std::optional<int> unum;
@@ -83,10 +83,10 @@ struct ReplayReport {
 };
 
 /// Throws protocol::LogError that names the file if it cannot be read or its header makes no sense,
-/// config::ParameterError for wrong options.
-ReplayReport replay(const std::string& path, const ReplayOptions& options);
+/// config::ParameterError for wrong settings.
+ReplayReport replay(const std::string& path, const ReplaySettings& settings);
 
 /// The agent's configuration as the log tells it. Throws protocol::LogError.
-agent::AgentConfig agentOfLog(const std::string& path, const ReplayOptions& options);
+agent::AgentConfig agentOfLog(const std::string& path, const ReplaySettings& settings);
 
 }  // namespace nonet::lab

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "nonet/lab/common/progress.h"
 #include "nonet/lab/trial/rise_trial.h"
 
 namespace nonet::lab {
@@ -15,6 +16,7 @@ struct RiseReportSettings {
   int falls = 100;  // of each kind
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it
+  TrialProgress progress{};
 };
 
 struct RiseStatistics {

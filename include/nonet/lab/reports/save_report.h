@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "nonet/lab/common/progress.h"
 #include "nonet/lab/trial/save_trial.h"
 
 namespace nonet::lab {
@@ -18,8 +18,8 @@ struct SaveReportSettings {
   int challenge =
       0;  // above 0: so many rounds of the same twelve shots instead, as in the league's challenge
   std::uint64_t seed = 1;
-  int threads = 0;                                    // 0: all processors; the result does not depend on it
-  std::function<void(int done, int all)> progress{};  // from any thread, one at a time
+  int threads = 0;  // 0: all processors; the result does not depend on it
+  TrialProgress progress{};
 };
 
 struct SaveStatistics {
@@ -50,6 +50,6 @@ SaveReport measureSaves(const SaveReportSettings& settings);
 std::string saveReportTable(const SaveReport& report);
 std::string saveReportJson(const SaveReport& report, const SaveReportSettings& settings);
 /// The shots and where they were stopped, from above and seen from the field.
-std::string saveReportSvg(const SaveReport& report);
+std::string saveReportSvg(const SaveReport& report, const SaveReportSettings& settings);
 
 }  // namespace nonet::lab

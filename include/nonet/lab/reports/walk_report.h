@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nonet/lab/common/progress.h"
 #include "nonet/lab/common/statistics.h"
 #include "nonet/lab/trial/measured_robot.h"
 #include "nonet/lab/trial/target_course.h"
@@ -26,6 +27,7 @@ struct WalkReportSettings {
   double positionNoise = 0.025;         // m, standard deviation
   double headingNoise = 0.02;           // rad
   std::optional<ServerAddress> server;  // measure there, one walk after the other, instead of in process
+  TrialProgress progress{};
 };
 
 struct WalkReport {

@@ -32,6 +32,7 @@ struct Kick {
   std::vector<Vector3> path;  // of the ball: x towards the target, y left, from where it lay, m
 
   bool missed() const;
+  bool tooShort() const;     // under 2 m
   double direction() const;  // rad, positive to the left
 };
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nonet/lab/common/progress.h"
 #include "nonet/lab/trial/robot_trial.h"
 
 namespace nonet::lab {
@@ -80,6 +81,7 @@ struct CourseSummary {
 };
 
 /// The seeds of the courses follow from `seed`; threads 0: all processors.
-CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads);
+CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads,
+                             const TrialProgress& progress = {});
 
 }  // namespace nonet::lab

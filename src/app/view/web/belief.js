@@ -8,6 +8,7 @@ const kColor = '#ff5bd6';    // of everything believed
 const kHeight = 0.014;       // m above the ground, so that lines do not flicker
 const kLongestGap = 0.5;     // s of the game between the picture and the cycle shown for it
 const kSigmas = 2;
+const kMostParticles = 300;
 
 export class Belief {
   constructor(scene) {
@@ -23,6 +24,11 @@ export class Belief {
     this.arrow = this.add(new THREE.Mesh(arrowGeometry(), new THREE.MeshBasicMaterial({color: kColor, side: THREE.DoubleSide})));
     this.ball = this.add(new THREE.Mesh(new THREE.SphereBufferGeometry(0.06, 20, 14), glass));
     this.ballSpread = this.add(new THREE.Mesh(new THREE.CircleBufferGeometry(1, 40), glass));
+    this.places = new THREE.BufferAttribute(new Float32Array(3 * kMostParticles), 3);
+    this.particles = this.add(new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial(
+      {color: kColor, size: 3, sizeAttenuation: false, transparent: true, opacity: 0.7, depthWrite: false})));
+    this.particles.geometry.setAttribute('position', this.places);
+    this.particles.frustumCulled = false;
     this.target = this.add(new THREE.Mesh(new THREE.RingBufferGeometry(0.1, 0.14, 4),
                                           new THREE.MeshBasicMaterial({color: kColor, side: THREE.DoubleSide})));
     this.way = this.add(new THREE.Line(new THREE.BufferGeometry().setFromPoints(
@@ -71,6 +77,7 @@ export class Belief {
     this.arrow.position.set(x, y, kHeight + 0.004);
     this.arrow.rotation.z = turn;
     spread(this.ellipse, x, y, cycle.covariance);
+    this.drawParticles(cycle);
     this.ball.visible = this.ballSpread.visible = Boolean(cycle.ball);
     if (cycle.ball) {
       const [bx, by] = inWorld(cycle.ball.at, cycle.side);
@@ -97,6 +104,15 @@ export class Belief {
     }
   }
 
+  drawParticles(cycle) {
+    if (cycle === this.drawnCycle) return;
+    this.drawnCycle = cycle;
+    const particles = (cycle.particles || []).slice(0, kMostParticles);
+    particles.forEach((one, i) => this.places.setXYZ(i, cycle.side * one[0], cycle.side * one[1], kHeight + 0.002));
+    this.places.needsUpdate = true;
+    this.particles.geometry.setDrawRange(0, particles.length);
+  }
+
   // The panel: why it acts, and how far its belief is from the truth.
   html(cycle, track, place, slot) {
     const rows = [['role', cycle.role]];
@@ -110,11 +126,12 @@ export class Belief {
     const [x, y] = inWorld(cycle.pose, cycle.side);
     const sigma = Math.sqrt(Math.max(cycle.covariance[0], cycle.covariance[2]));
     const belief = [['own place', `${metres(Math.hypot(x - truth.x, y - truth.y))} off, σ ${metres(sigma)}`]];
+    if (cycle.particles) belief.push(['particles', String(cycle.particles.length)]);
     if (!cycle.localized) belief.push(['', 'not localized']);
     if (cycle.ball) {
       const [bx, by] = inWorld(cycle.ball.at, cycle.side);
       belief.push(['ball', `${metres(Math.hypot(bx - ball.x, by - ball.y))} off`],
-                  ['ball seen', `${cycle.ball.seen.toFixed(2)} s ago`]);
+                  ['ball seen', cycle.ball.seen === null ? 'never' : `${cycle.ball.seen.toFixed(2)} s ago`]);
     } else {
       belief.push(['ball', 'not known']);
     }
