@@ -197,6 +197,8 @@ struct BallHandlingParameters {
   double behindBall = 0.18;
   double standOff = 0.28;
   double circleRadius = 0.45;
+  double circleRoom = 0.3;
+  double circleEither = 0.2;
   double dribbleThrough = 0.6;
   double alignedAngle = 0.45;
   double alignedAside = 0.10;
@@ -236,6 +238,18 @@ struct BallHandlingParameters {
            search(0.3, 0.8),
            "Distance kept when walking around the ball"},
           self.circleRadius);
+    visit({"circleRoom",
+           Unit::Metre,
+           {0, 2},
+           search(0.15, 0.5),
+           "An opponent so near to the way around the ball stands in it: then around the other side"},
+          self.circleRoom);
+    visit({"circleEither",
+           Unit::Metre,
+           {0, 2},
+           search(0, 0.4),
+           "if the robot is not farther than this from the ball's way, in front of the ball"},
+          self.circleEither);
     visit(
         {"dribbleThrough", Unit::Metre, {0, 5}, search(0.2, 1.5), "Dribbling aims this far beyond the ball"},
         self.dribbleThrough);
