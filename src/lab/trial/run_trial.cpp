@@ -15,7 +15,7 @@ constexpr double kExploded = 140.0;    // m from its middle
 
 constexpr double kRunTime = 2.5;        // s
 constexpr double kFastAfter = 1.5;      // s
-constexpr double kAway = 30.0;          // m, of the target
+constexpr double kAway = 10.0;          // m, of the target
 constexpr double kAside = 0.1;          // rad, of the target in the beginning
 constexpr double kJump = 0.25;          // rad, of a target that jumps
 constexpr double kNoise = 0.02;         // rad, of its direction
