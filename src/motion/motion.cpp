@@ -47,7 +47,7 @@ struct Motion::Stages {
         stand(
             WalkEngine::standAngles(robot, motionParameters.sets.of(motionParameters.selection.standSet()))),
         player(robot, library, stand),
-        walk(robot, motionParameters.sets, motionParameters.selection),
+        walk(robot, motionParameters.sets, motionParameters.selection, motionParameters.run),
         fall(robot, library, motionParameters.fall, stand),
         head(robot, motionParameters.head) {}
 

@@ -46,6 +46,7 @@ struct MotionParameters {
   TransitionParameters transition;
   WalkSelection selection;
   WalkSets sets;
+  RunParameters run;
   HeadParameters head;
   FallParameters fall;
   KickParameters kick;
@@ -58,6 +59,7 @@ struct MotionParameters {
     visit.group("selection", self.selection);
     visit.group("walk", self.sets.goToTarget);
     visit.group("sprint", self.sets.sprint);
+    visit.group("run", self.run);
     visit.group("sidestep", self.sets.sidestep);
     visit.group("positioning", self.sets.positioning);
     visit.group("head", self.head);

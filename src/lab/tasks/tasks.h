@@ -18,6 +18,7 @@ const Task& standardCourseTask();
 const Task& sidestepTask();
 const Task& duelTask();
 const Task& sprintTask();
+const Task& runTask();
 const Task& getupTask();
 const Task& getupFrontTask();
 const Task& getupBackTask();

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <variant>
 
+#include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
+
 namespace nonet::motion {
 
 namespace {
@@ -11,6 +14,15 @@ namespace {
 constexpr double kLeastSidestep = 0.02;  // m; shorter steps need no set of their own
 
 constexpr double kKeepSet = 1.3;  // the positioning set is kept up to this multiple of its distances
+
+// Likewise the sprint set, up to this multiple of its angle and down to this share of its distance.
+constexpr double kKeepSprint = 1.2;
+constexpr double kKeepSprintNear = 0.4;
+
+// Out of a run the robot first slows down, nearly straight ahead, until its step is shorter than the sprint
+// set's stopStep: where the set changed at full steps every tenth stop ended in a fall, and every third turn
+// about.
+constexpr double kRunOutTurn = 0.5;  // rad/s
 
 constexpr double kCalm =
     1.0 / 3.0;  // and until tilt errors are below this share of the one that called for it
@@ -24,6 +36,10 @@ bool anyWithin(const std::array<world::PlayerState, world::kTeamSize + 1>& playe
   return false;
 }
 
+WalkCommand slowedDown(double turn) {
+  return {.speed = Pose2(0.0, 0.0, std::clamp(turn, -kRunOutTurn, kRunOutTurn)), .walk = true};
+}
+
 WalkSet setAskedFor(const MotionRequest& request) {
   return std::visit(
       [](const auto& kind) {
@@ -35,17 +51,21 @@ WalkSet setAskedFor(const MotionRequest& request) {
 
 }  // namespace
 
-WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection)
+WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection,
+                         const RunParameters& run)
     : sets_(sets),
       selection_(selection),
-      engine_(model),
+      engine_(model, run),
       set_(selection.standSet()),
       from_(sets_.of(set_)),
       active_(from_) {}
 
 void WalkControl::update(const world::WorldState& world, const MotionRequest& wanted, JointTargets& targets) {
   const MotionRequest request = calmed(world, wanted);
-  const WalkSet set = chooseSet(world, request);
+  const WalkSet wantedSet = chooseSet(world, request);
+  const bool runsOut = set_ == WalkSet::Sprint && wantedSet != set_ && !stumbles() &&
+                       engine_.gait().step.translation.x() > sets_.sprint.gait.stopStep;
+  const WalkSet set = runsOut ? set_ : wantedSet;
   if (set != set_) {
     set_ = set;
     from_ = active_;
@@ -60,7 +80,16 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& wa
   command.speed = speedFor(request);
   command.walk = std::holds_alternative<WalkVelocity>(request) || std::holds_alternative<WalkTo>(request);
   if (const auto* stand = std::get_if<Stand>(&request)) command.soon = stand->soon;
+  if (runsOut) command = slowedDown(command.speed.rotation);
+  command.run = runShare(world.body.cycleTime);
   engine_.update(world.body, active_, command, targets);
+}
+
+double WalkControl::runShare(double cycleTime) {
+  const double change = cycleTime / std::max(selection_.blendTime, kCycleTime);
+  run_ = std::clamp(run_ + (set_ == WalkSet::Sprint ? change : -change), 0.0, 1.0);
+  if (engine_.standing()) run_ = 0.0;
+  return run_;
 }
 
 // As seen from the walk frame, in which the torso turns to and fro.
@@ -95,14 +124,17 @@ WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionReque
   if (selection_.usePositioning && (stand || stumbles() || isCrowded(world))) return WalkSet::Positioning;
   if (stand) return set_;
   const auto* walk = std::get_if<WalkTo>(&request);
-  if (selection_.useSprint && walk != nullptr) {
-    const Vector2& target = walk->target.translation;
-    const double angle = std::atan2(target.y(), target.x());
-    if (target.norm() > selection_.sprintDistance && std::abs(angle) < selection_.sprintAngle) {
-      return WalkSet::Sprint;
-    }
-  }
+  if (selection_.useSprint && walk != nullptr && sprints(*walk)) return WalkSet::Sprint;
   return selection_.useSidestep && sidesteps(request) ? WalkSet::Sidestep : WalkSet::GoToTarget;
+}
+
+// The direction of the walk counts: the torso turns to and fro against it.
+bool WalkControl::sprints(const WalkTo& request) const {
+  const Vector2& target = request.target.translation;
+  const double angle = wrapAngle(directionOf(target) + engine_.measurement().torsoYaw);
+  const bool already = set_ == WalkSet::Sprint;
+  return target.norm() > (already ? kKeepSprintNear : 1.0) * selection_.sprintDistance &&
+         std::abs(angle) < (already ? kKeepSprint : 1.0) * selection_.sprintAngle;
 }
 
 bool WalkControl::sidesteps(const MotionRequest& request) const {

@@ -18,7 +18,8 @@ Vector3 comOverSole(const model::RobotModel& model, const model::BodyPoses& bodi
 
 }  // namespace
 
-WalkEngine::WalkEngine(const model::RobotModel& model) : model_(&model) {}
+WalkEngine::WalkEngine(const model::RobotModel& model, const RunParameters& run)
+    : model_(&model), run_(run) {}
 
 void WalkEngine::reset() {
   gait_.reset();
@@ -43,6 +44,7 @@ void WalkEngine::update(const world::BodyState& body, const WalkParameters& p, c
   footPoses(p, trace_.feet);
   trace_.reach = setLegs(*model_, trace_.feet, targets.angles);
   moveArms(p.posture, targets.angles);
+  addRun(run_, gait_.state(), command.run * runShare(p.gait, gait_.state()), *model_, targets.angles);
   targets.stiffness.fill(1.0);
   measureCom(body, p, targets.angles);
 }

@@ -117,6 +117,30 @@ TEST_F(WalkControlTest, SprintsStraightAheadOnly) {
   EXPECT_EQ(setOf(Pose2(3.0, 0.0, 0.0)), WalkSet::Positioning) << "others come first";
 }
 
+// From full steps the set changes only once they have become short, and the robot slows down until then.
+TEST_F(WalkControlTest, RunsOutBeforeTheSetChanges) {
+  WalkSelection chosen = selection();
+  chosen.useSprint = true;
+  WalkSets sets;
+  sets.sprint.gait.maxStepX = 0.15;
+  sets.sprint.balance.comErrorNormal = 1.0;  // no body moves in this test
+  sets.sprint.balance.comErrorMost = 2.0;
+  WalkControl sprinter(model::robotModel(0), sets, chosen);
+  for (int i = 0; i < 100; ++i) sprinter.update(world, walk, targets);
+  ASSERT_EQ(sprinter.set(), WalkSet::Sprint);
+  double step = sprinter.engine().gait().step.translation.x();
+  ASSERT_GT(step, 0.12);
+  int cycles = 0;
+  for (; sprinter.set() == WalkSet::Sprint && cycles < 50; ++cycles) {
+    EXPECT_LE(sprinter.engine().gait().step.translation.x(), step);
+    step = sprinter.engine().gait().step.translation.x();
+    sprinter.update(world, MotionRequest{}, targets);
+  }
+  EXPECT_EQ(sprinter.set(), WalkSet::Positioning);
+  EXPECT_GT(cycles, 5);
+  EXPECT_LT(step, 0.1);
+}
+
 class Sidestepper : public WalkControlTest {
  protected:
   static WalkSelection sidestepping() {

@@ -96,7 +96,8 @@ struct WalkSelection {
 
 class WalkControl {
  public:
-  WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection);
+  WalkControl(const model::RobotModel& model, const WalkSets& sets, const WalkSelection& selection,
+              const RunParameters& run = {});
 
   /// Any other request than WalkVelocity and WalkTo stands.
   void update(const world::WorldState& world, const MotionRequest& wanted, JointTargets& targets);
@@ -112,11 +113,13 @@ class WalkControl {
 
  private:
   WalkSet chooseSet(const world::WorldState& world, const MotionRequest& request) const;
+  bool sprints(const WalkTo& request) const;
   bool sidesteps(const MotionRequest& request) const;
   MotionRequest calmed(const world::WorldState& world, const MotionRequest& wanted);
   bool isCrowded(const world::WorldState& world) const;
   bool stumbles() const;
   Pose2 speedFor(const MotionRequest& request) const;
+  double runShare(double cycleTime);
 
   WalkSets sets_;
   WalkSelection selection_;
@@ -126,6 +129,7 @@ class WalkControl {
   WalkParameters from_;  // active when the set changed
   WalkParameters active_;
   double blended_ = 1.0;  // share of the change that is done
+  double run_ = 0.0;      // share of the run: it comes with the sprint set, and goes with it
 };
 
 }  // namespace nonet::motion

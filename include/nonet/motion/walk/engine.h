@@ -5,11 +5,12 @@
 //
 // It puts the layers together, each in a file of its own: gait (when and where the feet step), pendulum (the
 // torso over them), posture (lean and arms), balance (small corrections by what is measured), recovery (far
-// tilts).
+// tilts), run (what a run adds).
 #pragma once
 
 #include "nonet/motion/request.h"
 #include "nonet/motion/walk/parameters.h"
+#include "nonet/motion/walk/run.h"
 #include "nonet/world/body_state.h"
 
 namespace nonet::motion {
@@ -24,7 +25,7 @@ struct WalkTrace {
 
 class WalkEngine {
  public:
-  explicit WalkEngine(const model::RobotModel& model);
+  explicit WalkEngine(const model::RobotModel& model, const RunParameters& run = {});
 
   /// One cycle. The set may change in every cycle, at any moment of a step; jumps between sets are taken out
   /// by the caller (blend).
@@ -52,6 +53,7 @@ class WalkEngine {
                   const model::JointArray& commanded);
 
   const model::RobotModel* model_;
+  RunParameters run_;
   Gait gait_;
   WalkMeasurement measurement_;
   Vector3 p_TCom_ = Vector3::Zero();  // commanded centre of mass from the torso, upright axes, m

@@ -275,6 +275,7 @@ struct WalkCommand {
   Pose2 speed;        // m/s, m/s, rad/s; the gait shrinks it to what the set allows
   bool walk = false;  // false: come to a stand
   bool soon = false;  // out of small steps earlier than else
+  double run = 0.0;   // share of the run (run.h) that a full step gets
 };
 
 struct GaitInput {

@@ -1,0 +1,164 @@
+#include "nonet/lab/trial/run_trial.h"
+
+#include <array>
+#include <cmath>
+
+#include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr double kOpenGround = 300.0;  // m, length and width of a field so large that nobody leaves it
+constexpr double kExploded = 140.0;    // m from its middle
+
+constexpr double kRunTime = 2.5;        // s
+constexpr double kFastAfter = 1.5;      // s
+constexpr double kAway = 10.0;          // m, of the target
+constexpr double kAside = 0.1;          // rad, of the target in the beginning
+constexpr double kJump = 0.25;          // rad, of a target that jumps
+constexpr double kNoise = 0.02;         // rad, of its direction
+constexpr double kNoiseKept = 0.9;      // from cycle to cycle
+constexpr double kPush = 0.1;           // m/s
+constexpr double kPushEvery = 1.5;      // s, on average
+constexpr double kAfterwards = 1.0;     // s, of what follows
+constexpr double kTilt = 0.5;           // rad
+constexpr double kSurelyFalling = 0.9;  // rad
+constexpr double kStill = 0.08;         // m/s
+constexpr std::size_t kSpeedOver = 6;   // cycles
+
+int cyclesIn(double seconds) {
+  return static_cast<int>(std::lround(seconds / kCycleTime));
+}
+
+TrialSetup onOpenGround(TrialSetup setup, std::uint64_t seed) {
+  setup.physics.fieldLength = setup.physics.fieldWidth = kOpenGround;
+  setup.seed = seed;
+  return setup;
+}
+
+class Runner {
+ public:
+  Runner(const TrialSetup& setup, std::uint64_t seed)
+      : random_(Random(seed).fork(9)), trial_(onOpenGround(setup, seed)) {
+    trial_.physics().setBallPosition({0.0F, static_cast<float>(-kAway * 3.0), 0.042F});
+  }
+
+  RunOutcome run() {
+    begin();
+    const int cycles = cyclesIn(kRunTime);
+    const int jump = random_.below(3) == 0 ? cyclesIn(random_.uniform(0.8, 2.0)) : cycles;
+    Vector2 from = start_;
+    for (int i = 0; i < cycles; ++i) {
+      if (i == jump) turnTarget();
+      if (random_.uniform() < kCycleTime / kPushEvery) push();
+      trial_.step(towardsTarget());
+      if (i + 1 == cyclesIn(kFastAfter)) from = trial_.pose().translation;
+      if (lies()) {
+        outcome_.fell = true;
+        outcome_.fellAt = static_cast<double>(i) / cycles;
+        break;
+      }
+      feelTilt();
+    }
+    outcome_.speed = along(start_) / kRunTime;
+    if (outcome_.fell) return outcome_;
+    outcome_.fast = along(from) / (kRunTime - kFastAfter);
+    random_.below(3) == 0 ? walkOn() : stop();
+    return outcome_;
+  }
+
+ private:
+  // A quarter each out of a walk in any direction and of one ahead, the rest out of a stand.
+  void begin() {
+    trial_.settle({random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0), random_.uniform(-kPi, kPi)});
+    const std::uint64_t kind = random_.below(4);
+    Pose2 speed(1.2, 0.0, 0.0);
+    if (kind == 2) {
+      const double ahead = random_.uniform(-0.6, 1.2);
+      const double aside = random_.uniform(-0.5, 0.5);
+      speed = Pose2(ahead, aside, random_.uniform(-1.5, 1.5));
+    }
+    const double time = random_.uniform(0.3, 1.1);
+    if (kind >= 2) trial_.run(motion::WalkVelocity{speed}, time);
+    const Pose2 pose = trial_.pose();
+    start_ = pose.translation;
+    direction_ = pose.rotation + random_.uniform(-kAside, kAside);
+    target_ = start_ + kAway * unitVector(direction_);
+  }
+
+  void turnTarget() {
+    const double turned = direction_ + random_.uniform(-kJump, kJump);
+    target_ = trial_.pose().translation + kAway * unitVector(turned);
+  }
+
+  motion::MotionRequest towardsTarget() {
+    noise_ = kNoiseKept * noise_ + std::sqrt(1.0 - kNoiseKept * kNoiseKept) * kNoise * random_.normal();
+    const double bearing = directionOf(trial_.pose().inverse() * target_) + noise_;
+    return motion::WalkTo{Pose2(kAway * unitVector(bearing), bearing), false};
+  }
+
+  void push() {
+    const Vector2 v = kPush * std::sqrt(random_.uniform()) * unitVector(random_.uniform(-kPi, kPi));
+    for (const model::BodySpec& body : trial_.model().bodies()) {
+      auto state = trial_.physics().bodyState(trial_.robot(), body.id);
+      state.velocity.head<2>() += v;
+      trial_.physics().setBodyState(trial_.robot(), body.id, state);
+    }
+  }
+
+  void stop() {
+    std::array<Vector2, kSpeedOver> before;
+    before.fill(trial_.pose().translation);
+    const int cycles = cyclesIn(kAfterwards);
+    for (int i = 0; i < cycles && !outcome_.fellAfter; ++i) {
+      trial_.step(motion::Stand{});
+      Vector2& then = before[static_cast<std::size_t>(i) % kSpeedOver];
+      const Vector2 now = trial_.pose().translation;
+      if ((now - then).norm() > kStill * kSpeedOver * kCycleTime) outcome_.stopTime = (i + 1) * kCycleTime;
+      then = now;
+      feelTilt();
+      outcome_.fellAfter = lies();
+    }
+  }
+
+  void walkOn() {
+    const double angle = random_.uniform(-1.5, 1.5);
+    const motion::WalkVelocity walk{Pose2(0.8 * std::cos(angle), 0.5 * std::sin(angle), 0.0)};
+    const int cycles = cyclesIn(kAfterwards);
+    for (int i = 0; i < cycles && !outcome_.fellAfter; ++i) {
+      trial_.step(walk);
+      feelTilt();
+      outcome_.fellAfter = lies();
+    }
+  }
+
+  double along(const Vector2& from) const {
+    return (trial_.pose().translation - from).dot(unitVector(direction_));
+  }
+  // Absurd parameters can drive the solver to numbers that are none.
+  bool lies() const {
+    const Vector3 torso = trial_.torsoPosition();
+    return !torso.allFinite() || torso.norm() > kExploded || trial_.down();
+  }
+  void feelTilt() {
+    outcome_.unsteadiness += kCycleTime * std::pow(std::min(trial_.tilt(), kSurelyFalling) / kTilt, 4);
+  }
+
+  Random random_;
+  RobotTrial trial_;
+  RunOutcome outcome_;
+  Vector2 start_ = Vector2::Zero();   // m
+  Vector2 target_ = Vector2::Zero();  // m
+  double direction_ = 0.0;            // rad
+  double noise_ = 0.0;                // rad
+};
+
+}  // namespace
+
+RunOutcome runAhead(const TrialSetup& setup, std::uint64_t seed) {
+  return Runner(setup, seed).run();
+}
+
+}  // namespace nonet::lab

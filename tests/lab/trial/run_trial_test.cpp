@@ -1,0 +1,54 @@
+// Runs with the learned values, seeded: on the quick stepper, wide starts, light pushes and noise.
+#include "nonet/lab/trial/run_trial.h"
+
+#include <gtest/gtest.h>
+
+#include "nonet/lab/trial/ball_trial.h"
+
+#include "motion/trial_setup.h"
+
+namespace nonet::lab {
+namespace {
+
+class Running : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Types, Running, testing::Range(0, model::kRobotTypeCount));
+
+TEST(Runs, OfTheSameSeedAreTheSame) {
+  TrialSetup setup = agentTrialSetup(2);
+  setup.physics.solver = sim::WorldSettings::Solver::Quick;
+  EXPECT_EQ(runAhead(setup, 3).speed, runAhead(setup, 3).speed);
+  EXPECT_NE(runAhead(setup, 3).speed, runAhead(setup, 4).speed);
+}
+
+// Out of stands and walks, among pushes, and then a stop or another walk: hardly ever with a fall.
+TEST_P(Running, OutOfAnyWalkAndBackWithoutAFall) {
+  TrialSetup setup = agentTrialSetup(GetParam());
+  setup.physics.solver = sim::WorldSettings::Solver::Quick;
+  constexpr int kRuns = 20;
+  int falls = 0;
+  double fast = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    const RunOutcome run = runAhead(setup, seed);
+    falls += run.fell || run.fellAfter ? 1 : 0;
+    fast += run.fast / kRuns;
+  }
+  EXPECT_LE(falls, 1);
+  EXPECT_GT(fast, 1.35);  // m/s
+}
+
+// With its own eyes along the field, as `nonet ball-report --skill run` measures it.
+TEST_P(Running, AlongTheFieldAndStops) {
+  sim::Settings server;
+  server.quickSolver = true;
+  int falls = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const lab::Run run = runOnce(agentOfType(GetParam()), server, seed);
+    EXPECT_GT(run.speed, 1.45);    // m/s
+    EXPECT_LT(run.stopTime, 1.8);  // s
+    falls += run.fell ? 1 : 0;
+  }
+  EXPECT_EQ(falls, 0);
+}
+
+}  // namespace
+}  // namespace nonet::lab
