@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -129,10 +130,10 @@ class Browser {
     std::string log;   // what the browser said, the page's console included
   };
 
-  /// Opens the page, lets it run, and returns what has become of it.
-  Visit visit(const std::string& address, const std::string& profile) const {
+  /// Opens the page, lets it run for so many seconds of its own clock, and returns what has become of it.
+  Visit visit(const std::string& address, const std::string& profile, double seconds = 6.0) const {
     Visit visit;
-    visit.page = run({"--dump-dom", address}, profile, visit.log);
+    visit.page = run({"--dump-dom", address}, profile, visit.log, seconds);
     return visit;
   }
 
@@ -145,15 +146,16 @@ class Browser {
  private:
   explicit Browser(std::string binary) : binary_(std::move(binary)) {}
 
-  std::string run(const std::vector<std::string>& task, const std::string& profile, std::string& log) const {
+  std::string run(const std::vector<std::string>& task, const std::string& profile, std::string& log,
+                  double seconds = 6.0) const {
     const std::string errors = profile + ".err";
     const std::string output = profile + ".out";
     // A shell keeps the document apart from what the browser says.
     std::string line = "timeout 120 " + binary_ +
                        " --headless --no-sandbox --disable-gpu --use-angle=swiftshader "
                        "--enable-unsafe-swiftshader --enable-logging=stderr --window-size=1200,800 "
-                       "--hide-scrollbars --virtual-time-budget=6000 --user-data-dir=" +
-                       profile;
+                       "--hide-scrollbars --virtual-time-budget=" +
+                       std::to_string(std::lround(1000.0 * seconds)) + " --user-data-dir=" + profile;
     for (const std::string& part : task) line += " '" + part + "'";
     Program program("/bin/sh", {"-c", line + " 2>" + errors}, output);
     program.wait();
