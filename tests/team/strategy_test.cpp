@@ -130,6 +130,20 @@ TEST(Strategy, KeepsTheDistanceAtTheOpponentsSetPieces) {
   }
 }
 
+// Whoever is in their penalty area then is moved by the referee (server facts 4.7).
+TEST(Strategy, NobodyWaitsInTheirAreaAtTheirGoalKick) {
+  Scene scene;
+  scene.world.game.phase = Phase::OpponentGoalKick;
+  scene.putBall({14.0, 0.0});
+  scene.stand(Pose2(8.0, 1.0, 0.0));
+  for (int role = 0; role < kMaxAssigned; ++role) {
+    const Situation situation = scene.situation(static_cast<Role>(role));
+    const Vector2 place = goalOf(scene, *opponentSetPiece(situation));
+    EXPECT_FALSE(place.x() > 13.2 - 0.5 && std::abs(place.y()) < 3.0 + 0.5)
+        << "role " << role << " at " << place.transpose();
+  }
+}
+
 // Who cannot kick has only the pass to the one next to it.
 TEST(Strategy, TheTakerWaitsForTheReceiverButNotForEver) {
   Scene scene;

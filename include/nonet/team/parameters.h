@@ -225,6 +225,7 @@ struct TeamParameters {
   double onBallRoom = 1.2;
   double keepBallTime = 1.0;
   double clearOfOpponentKick = 2.3;
+  double clearOfGoalKick = 0.8;
   double waitForReceiver = 8.0;
 
   template <class Self, class Visitor>
@@ -266,6 +267,12 @@ struct TeamParameters {
            fixed,
            "Distance from the ball while the opponent takes a kick"},
           self.clearOfOpponentKick);
+    visit({"clearOfGoalKick",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "Distance kept from the opponent's penalty area at its goal kick: server facts 4.7"},
+          self.clearOfGoalKick);
     visit({"waitForReceiver",
            Unit::Second,
            {0, 15},

@@ -1,10 +1,24 @@
 #include <algorithm>
+#include <cmath>
 
 #include "nonet/team/behaviors.h"
 
 #include "team/behaviors/take_place.h"
 
 namespace nonet::team {
+
+namespace {
+
+// At their goal kick the referee moves everybody of us out of their penalty area, again and again, and most
+// fall.
+Vector2 outOfTheirArea(const Situation& s, Vector2 place) {
+  const double room = s.parameters.clearOfGoalKick;
+  const double edge = 0.5 * s.world.field.length - s.world.field.areaLength - room;
+  if (std::abs(place.y()) < 0.5 * s.world.field.areaWidth + room) place.x() = std::min(place.x(), edge);
+  return place;
+}
+
+}  // namespace
 
 // Everybody keeps the distance that the referee enforces; the one on the ball waits on the own goal's side.
 std::optional<Action> opponentSetPiece(const Situation& s) {
@@ -18,6 +32,7 @@ std::optional<Action> opponentSetPiece(const Situation& s) {
   const Vector2 away = place - ball;
   const double clear = s.parameters.clearOfOpponentKick;
   if (away.norm() < clear) place = ball + clear * (away + Vector2(-kTieBreak, 0.0)).normalized();
+  if (s.phase() == world::Phase::OpponentGoalKick) place = outOfTheirArea(s, place);
   if (s.phase() == world::Phase::OpponentKickOff)
     place.x() = std::min(place.x(), -s.parameters.setPlay.kickOffLine);
   return Action(takePlace(s, place), blocks ? "block the way to the goal" : "place of the role");
