@@ -10,8 +10,8 @@
 namespace nonet::lab {
 namespace {
 
-// The ball still rolls away from the dribbler that has pushed it. Whoever begins the kick while it lies ahead of
-// its place meets it with the wrong part of the swing.
+// The ball still rolls away from the dribbler that has pushed it. Whoever begins the kick while it lies ahead
+// of its place meets it with the wrong part of the swing.
 TEST(Kicks, ReachABallThatTheRobotHasPushed) {
   const agent::AgentConfig agent = agentOfType(2);
   sim::Settings server;
