@@ -131,6 +131,33 @@ std::optional<double> presentKick(const Situation& s) {
   return directionOf(s.world.self.X_FR.rotate(kick->target - kick->ball));
 }
 
+struct Fan {
+  double middle = 0.0;  // rad, own field frame
+  int from = 0;         // steps from there to the first direction
+  int to = 0;           // and to the last one
+};
+
+// `best` becomes the most valuable kick in these directions if one is worth more than it.
+template <class Value>
+void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoice& best,
+                const Value& valueOf) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const std::optional<double> present = presentKick(s);
+  for (const motion::KickOption& kick : s.motion.kicks) {
+    if (kick.foot != model::Side::Left || kick.head.room > s.nearestOpponent) continue;
+    const double length = p.length * kick.head.longest;
+    for (int i = fan.from; i <= fan.to; ++i) {
+      const double direction = wrapAngle(fan.middle + kStep * i);
+      const Vector2 target = s.ball() + length * unitVector(direction);
+      double value = valueOf(kick.head, direction, length);
+      if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
+      if (record != nullptr) record->add(target, value);
+      if (value <= best.value) continue;
+      best = {true, target, value, kick.name};
+    }
+  }
+}
+
 }  // namespace
 
 double opponentsTime(const Situation& s, const Vector2& p_F) {
@@ -165,24 +192,14 @@ double kickValue(const Situation& s, double direction, double length, bool maySc
 }
 
 BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
-  const ChoiceParameters& p = s.parameters.choice;
-  BallChoice best{false, s.setPlay->p_FTarget, valueAt(s, s.setPlay->p_FReceiver, p.shortPass), {}};
+  BallChoice best{
+      false, s.setPlay->p_FTarget, valueAt(s, s.setPlay->p_FReceiver, s.parameters.choice.shortPass), {}};
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.setPlay->p_FReceiver, best.value);
-  const std::optional<double> present = presentKick(s);
-  for (const motion::KickOption& kick : s.motion.kicks) {
-    if (kick.foot != model::Side::Left || kick.head.room > s.nearestOpponent) continue;
-    const double length = p.length * kick.head.longest;
-    for (int i = 0; i < kAllDirections; ++i) {
-      const double direction = wrapAngle(kStep * i);
-      const Vector2 target = s.ball() + length * unitVector(direction);
-      double value = kickValue(s, direction, length, false);
-      if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
-      if (record != nullptr) record->add(target, value);
-      if (value <= best.value) continue;
-      best = {true, target, value, kick.name};
-    }
-  }
+  weighKicks(s, {0.0, 0, kAllDirections - 1}, record, best,
+             [&](const motion::KickHead& /*kick*/, double direction, double length) {
+               return kickValue(s, direction, length, false);
+             });
   return best;
 }
 
@@ -193,23 +210,12 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   if (record != nullptr) record->add(s.p_FTarget, best.value);
   const double left = std::max(0.0, opponentsTime(s, s.ball()) - p.opponentReach / p.opponentPace);
   const double contested = valueAt(s, s.ball(), 0.5);
-  const std::optional<double> present = presentKick(s);
   const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
-  const double straight = directionOf(toGoal);
-  for (const motion::KickOption& kick : s.motion.kicks) {
-    if (kick.foot != model::Side::Left || kick.head.room > s.nearestOpponent) continue;
-    const double length = p.length * kick.head.longest;
-    for (int i = -kDirections; i <= kDirections; ++i) {
-      const double direction = straight + kStep * i;
-      const Vector2 target = s.ball() + length * unitVector(direction);
-      const double comesOff = first(timeToContact(s, kick.head, direction), left, p.setupSpread);
-      double value = comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
-      if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
-      if (record != nullptr) record->add(target, value);
-      if (value <= best.value) continue;
-      best = {true, target, value, kick.name};
-    }
-  }
+  weighKicks(s, {directionOf(toGoal), -kDirections, kDirections}, record, best,
+             [&](const motion::KickHead& kick, double direction, double length) {
+               const double comesOff = first(timeToContact(s, kick, direction), left, p.setupSpread);
+               return comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
+             });
   return best;
 }
 
