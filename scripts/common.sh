@@ -101,10 +101,14 @@ launch() {
   started+=("$entry")
 }
 
-# Says who died at once, with the last words; fails if anybody did.
+# Says who died at once, with the last words; fails if anybody did. Waits NONET_WATCH seconds, less if all are dead.
 awaitAgents() {
-  local pid time name dead=0
-  sleep "${NONET_WATCH:-1}"
+  local i looks entry pid time name dead=0
+  looks=$(awk -v seconds="${NONET_WATCH:-1}" 'BEGIN { print int(10 * seconds) }')
+  for ((i = 0; i < looks; i++)); do
+    anyAlive || break
+    sleep 0.1
+  done
   for entry in "${started[@]}"; do
     read -r pid time name <<<"$entry"
     if ! isOurs "$pid" "$time"; then
@@ -113,4 +117,12 @@ awaitAgents() {
     fi
   done
   [ "$dead" -eq 0 ] || { echo "$script: $dead of ${#started[@]} agents did not start" >&2; return 1; }
+}
+anyAlive() {
+  local entry pid time name
+  for entry in "${started[@]}"; do
+    read -r pid time name <<<"$entry"
+    isOurs "$pid" "$time" && return 0
+  done
+  return 1
 }

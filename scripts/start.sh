@@ -5,7 +5,7 @@
 # Default: nine agents of team Nonet on port 3100; at most eleven. MONITORHOST is accepted for the convention: our
 # agents need no monitor. Ends with 1 if an agent dies at once, with 2 for wrong arguments. Environment: NONET_BINARY,
 # NONET_LOGS (folder, default logs/), NONET_STAGGER (pause between two starts in seconds: robots born in the same cycle
-# overlap and are thrown apart), NONET_WATCH (seconds until it looks who is alive).
+# overlap and are thrown apart), NONET_WATCH (seconds until it looks who is alive; less if all have died).
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 parseArguments "$@"
