@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -13,19 +14,29 @@
 
 namespace nonet::lab {
 
-/// Calls job(0) ... job(count - 1). `threads` 0: as many as there are processors.
+/// Calls job(0) ... job(count - 1). `threads` 0: as many as there are processors. After an exception no job
+/// begins any more; the first one is thrown again here.
 template <class Job>
 void inParallel(int count, int threads, const Job& job) {
   const int workers =
       std::max(1, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
   std::atomic<int> next{0};
+  std::exception_ptr failure;
+  std::mutex failureMutex;
   const auto work = [&] {
-    for (int i = next++; i < count; i = next++) job(i);
+    try {
+      for (int i = next++; i < count; i = next++) job(i);
+    } catch (...) {
+      const std::lock_guard lock(failureMutex);
+      if (!failure) failure = std::current_exception();
+      next = count;
+    }
   };
   std::vector<std::thread> others;
   for (int i = 1; i < workers; ++i) others.emplace_back(work);
   work();
   for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 /// The same, and tells of each job that is done.
