@@ -87,7 +87,7 @@ class TcpGame {
                               match_.left.players + match_.right.players, kLongestStart);
       if (trouble.empty() && goOn_(0.0)) continue;
       if (begun_) break;
-      trouble_ = trouble;
+      startTrouble_ = trouble;
       server_.stop();
       break;
     }
@@ -95,9 +95,11 @@ class TcpGame {
 
   lab::GameRecord record() {
     const lab::MatchResult result = watcher_.finish(server_.simulation());
-    if (!result.finished && goOn_(result.gameTime))
+    if (!result.finished && goOn_(result.gameTime)) {
+      const std::string& trouble = startTrouble_.empty() ? trouble_ : startTrouble_;
       throw std::runtime_error(fmt::format("game {} of pair {} did not end: {}", game_.game, game_.pair,
-                                           trouble_.empty() ? "the server stopped" : trouble_));
+                                           trouble.empty() ? "the server stopped" : trouble));
+    }
     lab::GameRecord record = lab::gameRecord(game_, score_[0], score_[1], result.gameTime, result.finished);
     record.line["signature"] = fmt::format("{:016x}", result.signature);
     record.line["statistics"] = statistics_.toJson();
@@ -121,7 +123,10 @@ class TcpGame {
   lab::MatchStatistics statistics_;
   std::array<int, 2> score_{};
   sim::Server server_;
-  std::string trouble_;  // written before the server stops, read after it has
+  // Of the server's thread and of the watching one, which may both find some in the first cycle; read after
+  // both.
+  std::string trouble_;
+  std::string startTrouble_;
   std::atomic<bool> begun_{false};
   std::atomic<bool> over_{false};
 };
