@@ -260,8 +260,11 @@ TEST_F(Scripts, StartTheAgentsThatTheLeagueAsksForAndStopExactlyThose) {
   run("start.sh", {"127.0.0.1", "-p", std::to_string(port), "-t", "Ours", "-n", "3", "-mh", "127.0.0.1"});
   for (const std::string unum : {"1", "2", "3"})
     EXPECT_TRUE(server->says("number " + unum + " of team Ours")) << server->output();
+  setenv("NONET_TEAM", "Others", 1);  // a third team would be refused, and its player end after a second
   run("startChallengePlayer.sh", {"127.0.0.1", std::to_string(port), "-3.5", "2", "keepaway"});
-  EXPECT_TRUE(Program::fileSays(folder.file("logs/Nonet_challenge.log"), "challenge keepaway"));
+  unsetenv("NONET_TEAM");
+  EXPECT_TRUE(server->says("number 2 of team Others")) << server->output();
+  EXPECT_TRUE(Program::fileSays(folder.file("logs/Others_challenge.log"), "challenge keepaway"));
 
   const std::string stopped = run("kill.sh", {});
   EXPECT_NE(stopped.find("stopped "), std::string::npos) << stopped;
