@@ -25,7 +25,7 @@ bool isSign(const std::vector<SkillToken>& line, std::size_t i) {
   const bool joint = i >= 2 && isSymbol(line[i - 2], ".");
   const bool keyword = before.text == "over" || before.text == "at" || before.text == "wait" ||
                        before.text == "in" || before.text == "within" || before.text == "after" ||
-                       before.text == "stiffness" || before.text == "repeat";
+                       before.text == "stiffness" || before.text == "repeat" || before.text == "direction";
   return joint || keyword;
 }
 

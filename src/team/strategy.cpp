@@ -21,6 +21,7 @@ constexpr std::array kStrategy = {
     StrategyEntry{"go to ball", goToBall},
     StrategyEntry{"shoot", shoot},
     StrategyEntry{"kick", kick},
+    StrategyEntry{"kick aside", kickAside},
     StrategyEntry{"dribble", dribble},
     StrategyEntry{"go behind ball", goBehindBall},
     // Somebody else's.

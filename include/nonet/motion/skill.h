@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -73,6 +74,8 @@ struct KickHead {
   bool fromWalk = false;     // begins out of steps; otherwise from a quiet stand
 
   bool serves(int robotType) const { return ((types >> robotType) & 1U) != 0; }
+  /// The ball goes where the robot faces, give or take what can be varied; otherwise to the side.
+  bool isStraight() const { return std::abs(direction) <= turn; }
   /// The probability that the ball is lower than `height` (m) so far (m) from where it lay. Its first flight
   /// is a parabola; a ball that has landed does not rise so high again.
   double fliesBelow(double height, double distance) const;

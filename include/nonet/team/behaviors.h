@@ -33,6 +33,8 @@ std::optional<Action> goToBall(const Situation& situation);
 std::optional<Action> shoot(const Situation& situation);
 /// One's turn, near: the last steps to the place for a kick, and the kick.
 std::optional<Action> kick(const Situation& situation);
+/// One's turn, at the ball, an opponent is too: the last steps for a kick past it, and the kick.
+std::optional<Action> kickAside(const Situation& situation);
 /// One's turn, behind the ball: runs through it.
 std::optional<Action> dribble(const Situation& situation);
 /// One's turn, near but not behind the ball: around it.

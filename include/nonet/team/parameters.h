@@ -2,6 +2,7 @@
 #pragma once
 
 #include "nonet/config/parameters.h"
+#include "nonet/team/aside_parameters.h"
 #include "nonet/team/ball_parameters.h"
 #include "nonet/team/carry_parameters.h"
 #include "nonet/team/challenge_parameters.h"
@@ -205,6 +206,7 @@ struct TeamParameters {
   BallTargetParameters target;
   BallHandlingParameters ball;
   ShotParameters shot;
+  AsideParameters aside;
   DribbleParameters dribble;
   ReceiveParameters receive;
   ChoiceParameters choice;
@@ -235,6 +237,7 @@ struct TeamParameters {
     visit.group("target", self.target);
     visit.group("ball", self.ball);
     visit.group("shot", self.shot);
+    visit.group("aside", self.aside);
     visit.group("dribble", self.dribble);
     visit.group("receive", self.receive);
     visit.group("choice", self.choice);

@@ -25,6 +25,8 @@ class Kicker {
   motion::MotionState motion;  // what motion did in the last cycle
 
  private:
+  Vector2 facedTarget(const team::Situation& situation) const;
+
   team::TeamParameters parameters_;
   Vector2 p_FTarget_;
   InlineString<32> kick_;

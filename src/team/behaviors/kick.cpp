@@ -78,8 +78,15 @@ bool isBehind(const Situation& s, const BallPlay& play) {
          std::abs(play.besides) < play.behind + p.kickBesides;
 }
 
+bool goesAside(const Situation& s, std::string_view kick) {
+  return std::any_of(s.motion.kicks.begin(), s.motion.kicks.end(), [&](const motion::KickOption& option) {
+    return option.name == kick && !option.head.isStraight();
+  });
+}
+
+// In the place for a kick, which is not one to the side.
 bool isThere(const Situation& s) {
-  return s.motion.askedForKick() && s.motion.kick.inPlace;
+  return s.motion.askedForKick() && s.motion.kick.inPlace && !goesAside(s, s.motion.kick.name);
 }
 
 Action kickAction(const Situation& s, const BallPlay& play, const char* detail) {

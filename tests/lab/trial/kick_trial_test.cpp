@@ -1,8 +1,11 @@
 // Kicks with the whole approach, on the complete simulation: seeded starts and a rate that must be reached.
 #include "nonet/lab/trial/kick_trial.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "nonet/math/angle.h"
 #include "nonet/sim/settings/settings.h"
 
 #include "motion/trial_setup.h"
@@ -29,6 +32,26 @@ TEST(Kicks, ReachABallThatTheRobotHasPushed) {
     fell += kick.fell ? 1 : 0;
   }
   EXPECT_LE(weak, 2);
+  EXPECT_LE(fell, 2);
+}
+
+// 60 degrees from where it faces, from every side that the robot comes from.
+TEST(Kicks, ToTheSideGoWhereTheyShould) {
+  const agent::AgentConfig agent = agentOfType(2);
+  sim::Settings server;
+  server.quickSolver = true;
+  constexpr int kKicks = 20;
+  int good = 0, fell = 0;
+  for (int i = 0; i < kKicks; ++i) {
+    KickScene scene;
+    scene.kick = "kick_side";
+    scene.bearing = kickBearing(i);
+    scene.start = 0.35 + 0.05 * (i % 12);
+    const Kick kick = kickOnce(agent, server, scene, static_cast<std::uint64_t>(i));
+    good += kick.forward > 5.0 && std::abs(kick.direction()) < toRadians(10.0) ? 1 : 0;
+    fell += kick.fell ? 1 : 0;
+  }
+  EXPECT_GE(good, 18);
   EXPECT_LE(fell, 2);
 }
 

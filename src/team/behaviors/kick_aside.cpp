@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+
+#include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
+#include "nonet/team/ball_choice.h"
+#include "nonet/team/behaviors.h"
+
+namespace nonet::team {
+
+namespace {
+
+constexpr int kTurns = 3;  // to either side of how the robot stands
+constexpr double kStep = toRadians(15.0);
+constexpr double kSameWay = 0.3;  // rad
+
+// An opponent at the ball bars its way to the goal, and that is far.
+bool isHeldUp(const Situation& s) {
+  const AsideParameters& p = s.parameters.aside;
+  const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
+  return s.nearestOpponent <= p.opponent && toGoal.norm() >= p.fromGoal &&
+         barred(s.world, s.parameters.target, directionOf(toGoal)) >= p.barred;
+}
+
+bool isFree(const Situation& s, const Vector2& to) {
+  const AsideParameters& p = s.parameters.aside;
+  const Vector2 way = to - s.ball();
+  const double length = way.norm();
+  const Vector2 along = way / std::max(length, 1e-6);
+  return std::none_of(s.world.opponents.begin(), s.world.opponents.end(),
+                      [&](const world::PlayerState& opponent) {
+                        if (!opponent.known) return false;
+                        const Vector2 offset = opponent.X_FP.translation - s.ball();
+                        const double ahead = offset.dot(along);
+                        if (ahead < 0.0 || ahead > length) return false;
+                        return (offset - ahead * along).norm() < p.lane + p.laneGrowth * ahead;
+                      });
+}
+
+bool isInside(const Situation& s, const Vector2& p_F) {
+  return std::abs(p_F.x()) < 0.5 * s.world.field.length && std::abs(p_F.y()) < 0.5 * s.world.field.width;
+}
+
+// Nobody is in its way, it stays in the field, and one of us is there first.
+bool comesOff(const Situation& s, double direction, double length) {
+  const Vector2 end = s.ball() + length * unitVector(direction);
+  return isInside(s, end + s.parameters.aside.margin * unitVector(direction)) && isFree(s, end) &&
+         teammatesTime(s, end) <= opponentsTime(s, end);
+}
+
+// How well the kick serves from where the robot stands: 1 when it goes straight to the ball's target.
+double worthOfKick(const Situation& s, const motion::KickHead& kick, double direction, double turn) {
+  const AsideParameters& p = s.parameters.aside;
+  const double wanted = directionOf(s.p_FTarget - s.ball());
+  const Vector2 place = s.play->ball - Pose2(Vector2::Zero(), turn).rotate(kick.p_RBall);
+  double worth = std::cos(direction - wanted) - p.turnCost * std::abs(turn) - p.wayCost * place.norm();
+  if (const auto* present = std::get_if<motion::KickTo>(&s.motion.request)) {
+    const double before = directionOf(s.world.self.X_FR.rotate(present->target - present->ball));
+    if (std::abs(angleDifference(direction, before)) < kSameWay) worth += p.keep;
+  }
+  return worth;
+}
+
+Action kickAction(const Situation& s, const motion::KickOption& kick, double direction) {
+  const double length = s.parameters.aside.length * kick.head.longest;
+  motion::KickTo request;
+  request.ball = s.play->ball;
+  request.target = s.world.self.X_FR.inverse() * Vector2(s.ball() + length * unitVector(direction));
+  request.ballVelocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
+  request.kick.assign(kick.name);
+  Action action(request, s.motion.askedForKick() && s.motion.kick.inPlace ? "in place" : "line up");
+  action.reason.candidates = s.play->candidates;
+  return action;
+}
+
+}  // namespace
+
+// The forward kick cannot pass who stands in front of the ball, and both push it nowhere.
+std::optional<Action> kickAside(const Situation& s) {
+  const AsideParameters& p = s.parameters.aside;
+  if (!p.use || !s.play || s.phase() != world::Phase::PlayOn || s.role == Role::Goalie) return std::nullopt;
+  if (s.play->ball.norm() > p.near || s.world.ball.v_FB.head<2>().norm() > p.rolling) return std::nullopt;
+  if (!isHeldUp(s)) return std::nullopt;
+  const motion::KickOption* best = nullptr;
+  double bestDirection = 0.0;
+  double most = p.least;
+  for (const motion::KickOption& kick : s.motion.kicks) {
+    if (kick.head.isStraight() || kick.head.room > s.nearestOpponent) continue;
+    for (int i = -kTurns; i <= kTurns; ++i) {
+      const double turn = i * kStep;
+      const double direction = wrapAngle(s.world.self.X_FR.rotation + kick.head.direction + turn);
+      const double worth = worthOfKick(s, kick.head, direction, turn);
+      if (worth <= most || !comesOff(s, direction, p.length * kick.head.longest)) continue;
+      best = &kick;
+      bestDirection = direction;
+      most = worth;
+    }
+  }
+  if (best == nullptr) return std::nullopt;
+  return kickAction(s, *best, bestDirection);
+}
+
+}  // namespace nonet::team
