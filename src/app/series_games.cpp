@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
 
 #include <fmt/format.h>
@@ -40,10 +41,10 @@ class TcpGame {
     for (const bool rightTeam : {false, true})
       agents_.start(rightTeam, {"127.0.0.1", server_.agentPort(), server_.monitorPort()}, lockStep_);
     server_.onCycle([this](const sim::Simulation& simulation) { afterCycle(simulation); });
-    std::thread guard([this] { watchStart(); });
-    server_.run();
-    over_ = true;
-    guard.join();
+    {
+      const std::jthread guard([this](const std::stop_token& over) { watchStart(over); });
+      server_.run();
+    }
     agents_.stop(kFarewell);
     return record();
   }
@@ -77,9 +78,9 @@ class TcpGame {
   }
 
   // In a thread of its own: ends what cannot begin.
-  void watchStart() {
+  void watchStart(const std::stop_token& over) {
     const auto start = Clock::now();
-    while (!over_ && !begun_) {
+    while (!over.stop_requested() && !begun_) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       std::string trouble = agents_.trouble();
       if (trouble.empty() && std::chrono::duration<double>(Clock::now() - start).count() > kLongestStart)
@@ -128,7 +129,6 @@ class TcpGame {
   std::string trouble_;
   std::string startTrouble_;
   std::atomic<bool> begun_{false};
-  std::atomic<bool> over_{false};
 };
 
 std::uint16_t portFrom(std::string_view text) {

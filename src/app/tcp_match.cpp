@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <stop_token>
 #include <thread>
 
 #include <fmt/format.h>
@@ -95,10 +96,10 @@ class TcpMatch {
                              server_.monitorPort()));
     startAgents();
     server_.onCycle([this](const sim::Simulation& simulation) { afterCycle(simulation); });
-    std::thread guard([this] { watchProcesses(); });
-    server_.run();
-    over_ = true;
-    guard.join();
+    {
+      const std::jthread guard([this](const std::stop_token& over) { watchProcesses(over); });
+      server_.run();
+    }
     const double wallTime = std::chrono::duration<double>(Clock::now() - started_).count();
     console_.end();
     processes_.stop(kFarewell);
@@ -158,15 +159,15 @@ class TcpMatch {
 
   /// In a thread of its own: tells of agents that end, and ends the match if it cannot begin or nobody is
   /// left.
-  void watchProcesses() {
-    while (!over_) {
+  void watchProcesses(const std::stop_token& over) {
+    while (!over.stop_requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       processes_.poll();
       std::size_t running = 0;
       for (std::size_t i = 0; i < processes_.processes().size(); ++i) {
         AgentProcesses::Process& process = processes_.processes()[i];
         running += process.running ? 1 : 0;
-        if (process.running || process.told || over_) continue;
+        if (process.running || process.told || over.stop_requested()) continue;
         process.told = true;
         const std::string reason = endedBy(process);
         if (reason.empty()) continue;
@@ -223,7 +224,6 @@ class TcpMatch {
   AgentProcesses processes_;
   std::map<std::size_t, std::string> early_;  // why agents ended before the match did, by index of the player
   std::atomic<bool> begun_{false};
-  std::atomic<bool> over_{false};
   Clock::time_point started_;
 };
 
