@@ -124,13 +124,6 @@ double dribbleValue(const Situation& s) {
   return valueAt(s, end, 1.0 - lost);
 }
 
-// The direction in which the kick goes that motion is about to do.
-std::optional<double> presentKick(const Situation& s) {
-  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
-  if (kick == nullptr) return std::nullopt;
-  return directionOf(s.world.self.X_FR.rotate(kick->target - kick->ball));
-}
-
 struct Fan {
   double middle = 0.0;  // rad, own field frame
   int from = 0;         // steps from there to the first direction
@@ -160,6 +153,12 @@ void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoi
 }
 
 }  // namespace
+
+std::optional<double> presentKick(const Situation& s) {
+  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
+  if (kick == nullptr) return std::nullopt;
+  return directionOf(s.world.self.X_FR.rotate(kick->target - kick->ball));
+}
 
 double opponentsTime(const Situation& s, const Vector2& p_F) {
   return soonest(s.world.opponents, p_F, s.parameters.choice.opponentPace, s.parameters.pace.risingTime);

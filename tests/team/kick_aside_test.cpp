@@ -89,7 +89,7 @@ TEST(KickAside, StaysInTheField) {
     scene.stand(Pose2(0.8, y, 0.0));
     Scene::put(scene.world.opponents[3], Pose2(1.35, y, kPi));
     const std::optional<double> direction = scene.kicked();
-    if (!direction) continue;
+    ASSERT_TRUE(direction);
     const double length = scene.parameters.aside.length * kLength + scene.parameters.aside.margin;
     EXPECT_LT(std::abs(y + length * std::sin(*direction)), 0.5 * scene.world.field.width);
   }

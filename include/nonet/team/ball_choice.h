@@ -10,6 +10,7 @@
 // is worth a goal.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "nonet/team/situation.h"
@@ -29,6 +30,9 @@ BallChoice chooseSetPiece(const Situation& situation, Candidates* record = nullp
 
 /// The best thing to do for the one whose turn it is; candidates are written to `record` unless it is null.
 BallChoice chooseAction(const Situation& situation, Candidates* record = nullptr);
+
+/// The direction of the ball's way in the kick that motion was asked for last, rad, own field frame.
+std::optional<double> presentKick(const Situation& situation);
 
 /// s until an opponent can be at p_F; one that lies rises first. Infinite if none is known.
 double opponentsTime(const Situation& situation, const Vector2& p_F);

@@ -23,7 +23,7 @@ Vector2 Kicker::facedTarget(const team::Situation& situation) const {
   Vector2 faced = p_FTarget_;
   double least = std::numeric_limits<double>::infinity();
   for (const motion::KickOption& option : situation.motion.kicks) {
-    if (option.name != kick_.view() || option.head.direction == 0.0) continue;
+    if (option.name != kick_.view() || option.head.isStraight()) continue;
     const Vector2 ahead = Pose2(Vector2::Zero(), -option.head.direction).rotate(way);
     const double turn = std::abs(angleDifference(directionOf(ahead), situation.world.self.X_FR.rotation));
     if (turn >= least) continue;

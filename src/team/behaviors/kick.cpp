@@ -5,6 +5,8 @@
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 
+#include "team/behaviors/kick_action.h"
+
 namespace nonet::team {
 
 namespace {
@@ -87,18 +89,6 @@ bool goesAside(const Situation& s, std::string_view kick) {
 // In the place for a kick, which is not one to the side.
 bool isThere(const Situation& s) {
   return s.motion.askedForKick() && s.motion.kick.inPlace && !goesAside(s, s.motion.kick.name);
-}
-
-Action kickAction(const Situation& s, const BallPlay& play, const char* detail) {
-  motion::KickTo request;
-  request.ball = play.ball;
-  request.target = play.target;
-  request.ballVelocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
-  request.room = s.nearestOpponent;
-  request.kick.assign(play.kick);
-  Action action(request, detail);
-  action.reason.candidates = play.candidates;
-  return action;
 }
 
 }  // namespace

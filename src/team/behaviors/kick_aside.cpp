@@ -6,6 +6,8 @@
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 
+#include "team/behaviors/kick_action.h"
+
 namespace nonet::team {
 
 namespace {
@@ -54,23 +56,9 @@ double worthOfKick(const Situation& s, const motion::KickHead& kick, double dire
   const double wanted = directionOf(s.p_FTarget - s.ball());
   const Vector2 place = s.play->ball - Pose2(Vector2::Zero(), turn).rotate(kick.p_RBall);
   double worth = std::cos(direction - wanted) - p.turnCost * std::abs(turn) - p.wayCost * place.norm();
-  if (const auto* present = std::get_if<motion::KickTo>(&s.motion.request)) {
-    const double before = directionOf(s.world.self.X_FR.rotate(present->target - present->ball));
-    if (std::abs(angleDifference(direction, before)) < kSameWay) worth += p.keep;
-  }
+  const std::optional<double> present = presentKick(s);
+  if (present && std::abs(angleDifference(direction, *present)) < kSameWay) worth += p.keep;
   return worth;
-}
-
-Action kickAction(const Situation& s, const motion::KickOption& kick, double direction) {
-  const double length = s.parameters.aside.length * kick.head.longest;
-  motion::KickTo request;
-  request.ball = s.play->ball;
-  request.target = s.world.self.X_FR.inverse() * Vector2(s.ball() + length * unitVector(direction));
-  request.ballVelocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
-  request.kick.assign(kick.name);
-  Action action(request, s.motion.askedForKick() && s.motion.kick.inPlace ? "in place" : "line up");
-  action.reason.candidates = s.play->candidates;
-  return action;
 }
 
 }  // namespace
@@ -97,7 +85,11 @@ std::optional<Action> kickAside(const Situation& s) {
     }
   }
   if (best == nullptr) return std::nullopt;
-  return kickAction(s, *best, bestDirection);
+  const Vector2 target = s.ball() + p.length * best->head.longest * unitVector(bestDirection);
+  BallPlay play = playTowards(s, target, KickUse::Clear);
+  play.kick = best->name;
+  play.candidates = s.play->candidates;
+  return kickAction(s, play, s.motion.askedForKick() && s.motion.kick.inPlace ? "in place" : "line up");
 }
 
 }  // namespace nonet::team
