@@ -6,12 +6,14 @@
 namespace nonet::agent {
 
 struct Agent::Stages {
-  explicit Stages(const AgentConfig& agentConfig)
-      : config(agentConfig), robot(robotConfig(config)), behavior(config.parameters.team, config.challenge) {
-    if (config.skill) show.emplace(*config.skill);
+  explicit Stages(const AgentSettings& agentSettings)
+      : settings(agentSettings),
+        robot(robotSettings(settings)),
+        behavior(settings.parameters.team, settings.challenge) {
+    if (settings.skill) show.emplace(*settings.skill);
   }
 
-  AgentConfig config;
+  AgentSettings settings;
   Robot robot;
   team::Behavior behavior;
   std::optional<SkillShow> show;
@@ -19,24 +21,24 @@ struct Agent::Stages {
   bool asked = false;
 };
 
-RobotConfig robotConfig(const AgentConfig& config) {
-  RobotConfig robot;
-  robot.robotType = config.robotType;
-  robot.team = config.team;
-  robot.seed = config.seed;
-  robot.world = config.parameters.world;
-  robot.motion = config.parameters.motion;
-  robot.skillFolder = config.skillFolder;
+RobotSettings robotSettings(const AgentSettings& settings) {
+  RobotSettings robot;
+  robot.robotType = settings.robotType;
+  robot.team = settings.team;
+  robot.seed = settings.seed;
+  robot.world = settings.parameters.world;
+  robot.motion = settings.parameters.motion;
+  robot.skillFolder = settings.skillFolder;
   return robot;
 }
 
-Agent::Agent(const AgentConfig& config) : stages_(std::make_unique<Stages>(config)) {}
+Agent::Agent(const AgentSettings& settings) : stages_(std::make_unique<Stages>(settings)) {}
 Agent::~Agent() = default;
 
 protocol::Effectors Agent::hello() const {
   protocol::Effectors effectors;
   effectors.scene.emplace();
-  effectors.scene->robotType = stages_->config.robotType;
+  effectors.scene->robotType = stages_->settings.robotType;
   return effectors;
 }
 
@@ -46,14 +48,14 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
   effectors.clear();
   if (!s.asked) {
     effectors.init.emplace();
-    effectors.init->unum = s.config.unum;
-    effectors.init->team.assign(s.config.team);
+    effectors.init->unum = s.settings.unum;
+    effectors.init->team.assign(s.settings.team);
     s.asked = true;
   }
 
   const world::WorldState& world = s.robot.sense(percept);
   team::Action action = s.behavior.update(world, s.robot.motion().state());
-  if (action.beam && s.config.startPose) action.beam = s.config.startPose;
+  if (action.beam && s.settings.startPose) action.beam = s.settings.startPose;
   if (s.show) {
     action.motion = s.show->update(world, s.robot.motion().state());
     if (s.robot.motion().state().busy) action.beam.reset();
@@ -81,8 +83,8 @@ const team::Action& Agent::action() const {
 void Agent::recordCandidates(bool on) {
   stages_->behavior.recordCandidates(on);
 }
-const AgentConfig& Agent::config() const {
-  return stages_->config;
+const AgentSettings& Agent::settings() const {
+  return stages_->settings;
 }
 
 }  // namespace nonet::agent

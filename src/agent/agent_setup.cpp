@@ -34,75 +34,76 @@ std::string learnedFileIn(const std::string& dataFolder, int robotType) {
                                std::to_string(robotType));
 }
 
-motion::PlaySkill skillOf(const AgentConfig& config, const std::string& name, bool mirrored) {
-  const motion::SkillLibrary library(config.skillFolder, config.parameters.motion.skills);
+motion::PlaySkill skillOf(const AgentSettings& settings, const std::string& name, bool mirrored) {
+  const motion::SkillLibrary library(settings.skillFolder, settings.parameters.motion.skills);
   motion::PlaySkill skill;
   if (library.find(name) < 0 || !skill.name.assign(name))
     throw motion::SkillError(
-        fmt::format("{}: there is no skill '{}' in this folder", config.skillFolder, name));
+        fmt::format("{}: there is no skill '{}' in this folder", settings.skillFolder, name));
   skill.side = mirrored ? model::Side::Right : model::Side::Left;
   return skill;
 }
 
 }  // namespace
 
-AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFolder) {
-  AgentConfig config;
-  config.unum = choice.unum;
-  config.team = choice.team;
-  config.robotType = choice.robotType;
-  config.seed = choice.seed;
-  config.skillFolder = skillFolderIn(dataFolder);
-  config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
-  config.startPose = choice.startPose;
-  config.challenge = choice.challenge;
+AgentSettings makeAgentSettings(const AgentChoice& choice, const std::string& dataFolder) {
+  AgentSettings settings;
+  settings.unum = choice.unum;
+  settings.team = choice.team;
+  settings.robotType = choice.robotType;
+  settings.seed = choice.seed;
+  settings.skillFolder = skillFolderIn(dataFolder);
+  settings.parameters.motion.skills = motion::declareSkillParameters(settings.skillFolder);
+  settings.startPose = choice.startPose;
+  settings.challenge = choice.challenge;
   if (choice.learned) {
-    config::overlayFile(config.parameters, learnedFileIn(dataFolder, choice.robotType));
+    config::overlayFile(settings.parameters, learnedFileIn(dataFolder, choice.robotType));
   }
-  for (const std::string& file : choice.parameterFiles) config::overlayFile(config.parameters, file);
-  for (const std::string& text : choice.assignments) config::assignParameter(config.parameters, text);
-  if (!choice.skill.empty()) config.skill = skillOf(config, choice.skill, choice.mirrorSkill);
-  return config;
+  for (const std::string& file : choice.parameterFiles) config::overlayFile(settings.parameters, file);
+  for (const std::string& text : choice.assignments) config::assignParameter(settings.parameters, text);
+  if (!choice.skill.empty()) settings.skill = skillOf(settings, choice.skill, choice.mirrorSkill);
+  return settings;
 }
 
-protocol::LogHeader logHeader(const AgentConfig& config, const std::string& version) {
+protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& version) {
   protocol::LogHeader header;
   header.version = version;
-  header.team = config.team;
-  header.unum = config.unum;
-  header.robotType = config.robotType;
-  header.seed = config.seed;
-  header.parameters = config::toToml(config.parameters);
-  if (config.challenge != team::Challenge::None)
-    header.options[kChallengeOption] = team::challengeName(config.challenge);
-  if (config.skill) {
-    header.options[kSkillOption] = config.skill->name.view();
-    header.options[kSideOption] = config.skill->side == model::Side::Right ? "right" : "left";
+  header.team = settings.team;
+  header.unum = settings.unum;
+  header.robotType = settings.robotType;
+  header.seed = settings.seed;
+  header.parameters = config::toToml(settings.parameters);
+  if (settings.challenge != team::Challenge::None)
+    header.options[kChallengeOption] = team::challengeName(settings.challenge);
+  if (settings.skill) {
+    header.options[kSkillOption] = settings.skill->name.view();
+    header.options[kSideOption] = settings.skill->side == model::Side::Right ? "right" : "left";
   }
   return header;
 }
 
-AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder,
-                         const std::string& path) {
+AgentSettings agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder,
+                           const std::string& path) {
   if (header.robotType < 0 || header.robotType > 4 || header.unum < 0 || header.unum > 11) {
     throw protocol::LogError(path + ": the header makes no sense: robot type " +
                              std::to_string(header.robotType) + ", number " + std::to_string(header.unum));
   }
-  AgentConfig config;
-  config.unum = header.unum;
-  config.team = header.team;
-  config.robotType = header.robotType;
-  config.seed = header.seed;
+  AgentSettings settings;
+  settings.unum = header.unum;
+  settings.team = header.team;
+  settings.robotType = header.robotType;
+  settings.seed = header.seed;
   if (const auto option = header.options.find(kChallengeOption); option != header.options.end())
-    config.challenge = team::challengeFromName(option->second).value_or(team::Challenge::None);
-  config.skillFolder = skillFolderIn(dataFolder);
-  config.parameters.motion.skills = motion::declareSkillParameters(config.skillFolder);
-  config::overlayText(config.parameters, header.parameters, path + ": parameters in the header");
+    settings.challenge = team::challengeFromName(option->second).value_or(team::Challenge::None);
+  settings.skillFolder = skillFolderIn(dataFolder);
+  settings.parameters.motion.skills = motion::declareSkillParameters(settings.skillFolder);
+  config::overlayText(settings.parameters, header.parameters, path + ": parameters in the header");
   if (const auto skill = header.options.find(kSkillOption); skill != header.options.end()) {
     const auto side = header.options.find(kSideOption);
-    config.skill = skillOf(config, skill->second, side != header.options.end() && side->second == "right");
+    settings.skill =
+        skillOf(settings, skill->second, side != header.options.end() && side->second == "right");
   }
-  return config;
+  return settings;
 }
 
 std::string startComment(const Pose2& start) {

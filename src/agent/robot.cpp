@@ -6,11 +6,11 @@
 namespace nonet::agent {
 
 struct Robot::Stages {
-  explicit Stages(const RobotConfig& config)
-      : model(model::robotModel(config.robotType)),
-        worldModel(model, config.world, protocol::TeamName(config.team), config.seed),
-        motion(model, config.motion, config.skillFolder),
-        control(model, config.motion.control) {}
+  explicit Stages(const RobotSettings& settings)
+      : model(model::robotModel(settings.robotType)),
+        worldModel(model, settings.world, protocol::TeamName(settings.team), settings.seed),
+        motion(model, settings.motion, settings.skillFolder),
+        control(model, settings.motion.control) {}
 
   const model::RobotModel& model;
   world::WorldModel worldModel;
@@ -18,7 +18,7 @@ struct Robot::Stages {
   motion::JointControl control;
 };
 
-Robot::Robot(const RobotConfig& config) : stages_(std::make_unique<Stages>(config)) {}
+Robot::Robot(const RobotSettings& settings) : stages_(std::make_unique<Stages>(settings)) {}
 Robot::~Robot() = default;
 
 const world::WorldState& Robot::sense(const protocol::Percept& percept) {

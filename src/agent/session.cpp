@@ -7,8 +7,8 @@
 
 namespace nonet::agent {
 
-Session::Session(const SessionOptions& options)
-    : options_(options), agent_(std::make_unique<Agent>(options.agent)) {}
+Session::Session(const SessionSettings& settings)
+    : settings_(settings), agent_(std::make_unique<Agent>(settings.agent)) {}
 
 Session::~Session() = default;
 
@@ -67,7 +67,7 @@ void Session::watchAcceptance() {
 }
 
 std::string_view Session::write() {
-  outgoing_.syn = options_.sync;
+  outgoing_.syn = settings_.sync;
   text_.clear();
   protocol::writeEffectors(outgoing_, text_);
   return text_;

@@ -186,7 +186,7 @@ ordered_json traceOf(const Agent& agent) {
   ordered_json json = {
       {"time", rounded(world.time)},
       {"game_time", rounded(world.game.time)},
-      {"team", agent.config().team},
+      {"team", agent.settings().team},
       {"unum", world.game.unum},
       {"left", world.game.side != protocol::TeamSide::Right},
       {"side", ownGoalLeft ? 1 : -1},

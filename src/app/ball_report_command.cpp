@@ -31,14 +31,14 @@ int run(const BallReportArguments& arguments) {
   lab::BallReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   const std::string data = dataFolder(arguments.data);
-  settings.agent = agent::makeAgentConfig(arguments.choice, data);
+  settings.agent = agent::makeAgentSettings(arguments.choice, data);
   agent::AgentChoice opponent;
   opponent.robotType = arguments.choice.robotType;
   const std::string opponentData = arguments.opponentData.empty() ? data : dataFolder(arguments.opponentData);
-  settings.opponent = agent::makeAgentConfig(opponent, opponentData);
+  settings.opponent = agent::makeAgentSettings(opponent, opponentData);
   agent::AgentChoice goalie;
   goalie.robotType = 0;
-  settings.goalie = agent::makeAgentConfig(goalie, opponentData);
+  settings.goalie = agent::makeAgentSettings(goalie, opponentData);
   Console console(stderr);
   settings.progress = console.trials();
   const lab::BallReport report = lab::measureBallSkills(settings);

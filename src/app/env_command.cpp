@@ -88,7 +88,7 @@ int run(const EnvArguments& arguments) {
   if (arguments.list) return listTasks();
   if (arguments.task.empty()) throw std::runtime_error("which environment? nonet env --list names them");
   lab::EnvSettings settings;
-  settings.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
+  settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
   settings.server.quickSolver = arguments.quick;
   lab::EnvBatch batch(arguments.task, settings, arguments.count, arguments.threads, arguments.choice.seed);
   if (arguments.bench > 0.0) return measure(batch, arguments.bench, arguments.choice.seed);

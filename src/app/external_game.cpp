@@ -96,10 +96,10 @@ class MonitorLink {
 
 class ExternalGame {
  public:
-  ExternalGame(const ServerPlace& server, const lab::SeriesChoice& choice, const lab::SeriesGame& game,
-               lab::MatchChoice& match, SideAgents& agents, const std::function<bool(double)>& goOn)
+  ExternalGame(const ServerPlace& server, const lab::SeriesSettings& settings, const lab::SeriesGame& game,
+               lab::MatchSettings& match, SideAgents& agents, const std::function<bool(double)>& goOn)
       : server_(server),
-        choice_(choice),
+        settings_(settings),
         game_(game),
         match_(match),
         agents_(agents),
@@ -149,7 +149,7 @@ class ExternalGame {
 
   void awaitTeam(bool rightTeam) {
     const auto start = Clock::now();
-    const lab::TeamChoice& team = rightTeam ? match_.right : match_.left;
+    const lab::TeamSettings& team = rightTeam ? match_.right : match_.left;
     while (playersOf(rightTeam) < team.players) {
       follow();
       std::string trouble = agents_.trouble();
@@ -164,11 +164,11 @@ class ExternalGame {
   // So that everybody can take its place.
   void pauseBeforeKickOff() {
     const auto start = Clock::now();
-    while (secondsSince(start) < choice_.kickOffWait) follow();
+    while (secondsSince(start) < settings_.kickOffWait) follow();
   }
 
   void playOn() {
-    const double end = 60.0 * choice_.minutes;
+    const double end = 60.0 * settings_.minutes;
     Clock::time_point played = Clock::now();  // last: the second half waits for its kick-off since then
     bool begun = false;
     for (;;) {
@@ -181,7 +181,7 @@ class ExternalGame {
       if (frame.robots.empty()) throw std::runtime_error("all players have left");
       if (!begun || frame.mode != PlayMode::BeforeKickOff) {
         played = Clock::now();
-      } else if (secondsSince(played) >= choice_.kickOffWait) {
+      } else if (secondsSince(played) >= settings_.kickOffWait) {
         link_.command("(kickOff None)");  // the team whose turn it is
         played = Clock::now();
       }
@@ -190,11 +190,11 @@ class ExternalGame {
 
   lab::GameRecord collect() const {
     const lab::Frame& frame = link_.frames().frame();
-    const bool finished = frame.mode == PlayMode::GameOver || frame.time >= 60.0 * choice_.minutes;
+    const bool finished = frame.mode == PlayMode::GameOver || frame.time >= 60.0 * settings_.minutes;
     lab::GameRecord record = lab::gameRecord(game_, frame.score[0], frame.score[1], frame.time, finished);
     record.line["statistics"] = statistics_.toJson();
     for (const bool rightTeam : {false, true}) {
-      const lab::TeamChoice& team = rightTeam ? match_.right : match_.left;
+      const lab::TeamSettings& team = rightTeam ? match_.right : match_.left;
       const int here = playersOf(rightTeam != frame.swapped);
       record.line[rightTeam == game_.aLeft() ? "gone_b" : "gone_a"] = std::max(0, team.players - here);
     }
@@ -209,9 +209,9 @@ class ExternalGame {
   }
 
   const ServerPlace& server_;
-  const lab::SeriesChoice& choice_;
+  const lab::SeriesSettings& settings_;
   lab::SeriesGame game_;
-  lab::MatchChoice& match_;
+  lab::MatchSettings& match_;
   SideAgents& agents_;
   const std::function<bool(double)>& goOn_;
   MonitorLink link_;
@@ -220,20 +220,21 @@ class ExternalGame {
 
 }  // namespace
 
-lab::GameRecord playOnServer(const lab::SeriesChoice& choice, const lab::SeriesGame& game,
-                             lab::MatchChoice& match, SideAgents& agents,
+lab::GameRecord playOnServer(const lab::SeriesSettings& settings, const lab::SeriesGame& game,
+                             lab::MatchSettings& match, SideAgents& agents,
                              const std::function<bool(double)>& goOn, const std::string& logs) {
-  const ServerPlace server = serverPlace(choice.place).value();
+  const ServerPlace server = serverPlace(settings.place).value();
   AgentProcesses processes;
-  if (!choice.serverCommand.empty()) {
-    processes.startShell(filledIn(choice.serverCommand, {{"host", server.host},
-                                                         {"port", std::to_string(server.port)},
-                                                         {"monitor", std::to_string(server.monitorPort)},
-                                                         {"seed", std::to_string(game.seed)},
-                                                         {"half", fmt::format("{}", 30.0 * choice.minutes)}}),
-                         logs + "/server.txt");
+  if (!settings.serverCommand.empty()) {
+    processes.startShell(
+        filledIn(settings.serverCommand, {{"host", server.host},
+                                          {"port", std::to_string(server.port)},
+                                          {"monitor", std::to_string(server.monitorPort)},
+                                          {"seed", std::to_string(game.seed)},
+                                          {"half", fmt::format("{}", 30.0 * settings.minutes)}}),
+        logs + "/server.txt");
   }
-  lab::GameRecord record = ExternalGame(server, choice, game, match, agents, goOn).play();
+  lab::GameRecord record = ExternalGame(server, settings, game, match, agents, goOn).play();
   processes.stop(0.0);
   return record;
 }

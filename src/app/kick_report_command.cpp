@@ -29,7 +29,7 @@ int run(const KickReportArguments& arguments) {
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
+  settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
   Console console(stderr);
   settings.progress = console.trials();
   const std::vector<lab::KickStatistics> report = lab::measureKicks(settings);

@@ -37,8 +37,9 @@ struct MatchArguments {
 
 void addTrace(const std::string& folder, const lab::Thought& thought, std::unique_ptr<TraceFile>& file) {
   if (!file) {
-    const agent::AgentConfig& config = thought.agent.config();
-    file = std::make_unique<TraceFile>(fmt::format("{}/{}_{}.trace", folder, config.team, config.unum));
+    const agent::AgentSettings& agentSettings = thought.agent.settings();
+    file = std::make_unique<TraceFile>(
+        fmt::format("{}/{}_{}.trace", folder, agentSettings.team, agentSettings.unum));
   }
   file->add(thought.agent);
 }
@@ -50,7 +51,7 @@ void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter)
 
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
                           lab::MatchLocalization& localization) {
-  const lab::MatchChoice& match = arguments.settings.match;
+  const lab::MatchSettings& match = arguments.settings.match;
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int threads = arguments.threads > 0 ? arguments.threads : cores;
   console.say(fmt::format("{}, seed {}, in one process with {} threads", lab::matchTitle(match), match.seed,
@@ -79,7 +80,7 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
 }
 
 /// Names of parameters have a dot, those of the server's settings have none.
-void assign(const std::vector<std::string>& assignments, lab::MatchChoice& match) {
+void assign(const std::vector<std::string>& assignments, lab::MatchSettings& match) {
   for (const std::string& assignment : assignments) {
     if (assignment.substr(0, assignment.find('=')).find('.') == std::string::npos) {
       match.settings.setAssignment(assignment);
@@ -92,17 +93,17 @@ void assign(const std::vector<std::string>& assignments, lab::MatchChoice& match
 
 /// What would go wrong only after the match, or in every agent alone.
 void checkBefore(MatchArguments& arguments) {
-  lab::MatchChoice& match = arguments.settings.match;
+  lab::MatchSettings& match = arguments.settings.match;
   if (match.left.name == match.right.name)
     throw std::runtime_error("--left and --right must be different names");
   for (const std::string& name : {match.left.name, match.right.name}) checkTeamName(name);
-  for (lab::TeamChoice* team : {&match.left, &match.right}) {
+  for (lab::TeamSettings* team : {&match.left, &match.right}) {
     if (team->dataFolder.empty()) team->dataFolder = arguments.data;
     const std::string data = dataFolder(team->dataFolder);
     std::set<int> types;
     for (int unum = 1; unum <= team->players; ++unum) {
       const agent::AgentChoice choice = lab::agentChoice(match, team == &match.right, unum);
-      if (types.insert(choice.robotType).second) (void)agent::makeAgentConfig(choice, data);
+      if (types.insert(choice.robotType).second) (void)agent::makeAgentSettings(choice, data);
     }
   }
   const std::filesystem::path folder = std::filesystem::path(arguments.json).parent_path();
@@ -113,7 +114,7 @@ void checkBefore(MatchArguments& arguments) {
 }
 
 int runMatch(MatchArguments& arguments) {
-  lab::MatchChoice& match = arguments.settings.match;
+  lab::MatchSettings& match = arguments.settings.match;
   match.left.players = arguments.players;
   match.right.players = arguments.alone ? 0 : arguments.players;
   for (const std::string& file : arguments.settingFiles) match.settings.overlayFile(file);
@@ -144,7 +145,7 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("match", "Two teams of our agents play on the embedded server");
   auto arguments = std::make_shared<MatchArguments>();
   TcpMatchSettings& settings = arguments->settings;
-  lab::MatchChoice& match = settings.match;
+  lab::MatchSettings& match = settings.match;
   command->add_option("--minutes", match.minutes, "Game time in all, two halves")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));

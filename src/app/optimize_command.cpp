@@ -35,7 +35,7 @@ using Clock = std::chrono::steady_clock;
 struct OptimizeArguments {
   std::string task;
   std::string out;
-  lab::OptimizationConfig config;
+  lab::OptimizationSettings settings;
   std::string restarts = "none";
   std::vector<std::string> parameterFiles;
   int threads = 0;
@@ -111,7 +111,7 @@ int repeatFile(const OptimizeArguments& arguments) {
 
 /// The robot type that the file was learned for, unless it does not say; then the one given.
 int acceptedType(const OptimizeArguments& arguments, const std::vector<lab::Provenance>& origins) {
-  const int given = arguments.config.robotType;
+  const int given = arguments.settings.robotType;
   if (origins.empty()) return given;
   const int learned = origins.front().robotType;
   const bool agree = std::all_of(origins.begin(), origins.end(), [learned](const lab::Provenance& origin) {
@@ -128,7 +128,7 @@ int acceptedType(const OptimizeArguments& arguments, const std::vector<lab::Prov
 // Measures a set on fresh seeds and writes it with that fitness as its provenance.
 int acceptFile(OptimizeArguments& arguments) {
   if (arguments.out.empty()) throw std::runtime_error("--out FILE says where the accepted set goes");
-  lab::OptimizationConfig& config = arguments.config;
+  lab::OptimizationSettings& settings = arguments.settings;
   const lab::Task& task = lab::findTask(arguments.task);
   agent::AgentParameters parameters = lab::defaultParameters(dataFolder());
   config::overlayFile(parameters, arguments.accept);
@@ -138,24 +138,24 @@ int acceptFile(OptimizeArguments& arguments) {
   for (const lab::Provenance& known : origins) {
     if (known.task == arguments.task) origin = known;
   }
-  config.robotType = acceptedType(arguments, origins);
+  settings.robotType = acceptedType(arguments, origins);
   origin.task = arguments.task;
-  origin.robotType = config.robotType;
-  origin.quickSolver = config.quickSolver;
+  origin.robotType = settings.robotType;
+  origin.quickSolver = settings.quickSolver;
   origin.seeds = {};
-  origin.seeds.add(lab::SeedDraw{config.seed, 0, config.trials});
+  origin.seeds.add(lab::SeedDraw{settings.seed, 0, settings.trials});
   origin.date = today();
   origin.version = NONET_VERSION;
   Console console;
   const lab::Measurement measurement =
-      lab::measure(task, parameters, origin.seeds.all(), config.taskSettings(dataFolder()),
+      lab::measure(task, parameters, origin.seeds.all(), settings.taskSettings(dataFolder()),
                    threadsOf(arguments), showTrials(console));
   console.end();
   printMeasurement(measurement);
   origin.fitness = measurement.fitness;
   origin.standardError = measurement.standardError;
   lab::replaceProvenance(origins, origin);
-  const lab::SearchSpace space(parameters, config.keys.empty() ? task.searchedKeys() : config.keys);
+  const lab::SearchSpace space(parameters, settings.keys.empty() ? task.searchedKeys() : settings.keys);
   lab::writeAtomically(arguments.out, lab::learnedToml(parameters, lab::defaultParameters(dataFolder()),
                                                        space.keys(), origins));
   return 0;
@@ -198,7 +198,7 @@ class Progress {
 /// Exit code. A signal ends the search after the generation that it came in: all is in the folder.
 int optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::string& folder) {
   const StopSignal stopSignal;
-  Progress progress(folder, run.config().generations);
+  Progress progress(folder, run.settings().generations);
   progress.startFrom(run.trials());
   lab::GenerationReport report;
   while (!StopSignal::came() && run.step(evaluator, report)) progress.show(report, evaluator.workers());
@@ -208,7 +208,7 @@ int optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::st
   return stopped ? 1 : 0;
 }
 
-/// The options that a run keeps, by their names in its config.json.
+/// The options that a run keeps, by their names in its settings.json.
 constexpr std::array<std::pair<const char*, const char*>, 11> kKept{
     {{"--type", "robotType"},
      {"--population", "population"},
@@ -223,7 +223,7 @@ constexpr std::array<std::pair<const char*, const char*>, 11> kKept{
      {"--seed", "seed"}}};
 
 /// A run goes on as it began: whoever says otherwise means another run. Throws std::runtime_error.
-void checkAgainst(const OptimizeArguments& arguments, const lab::OptimizationConfig& begun) {
+void checkAgainst(const OptimizeArguments& arguments, const lab::OptimizationSettings& begun) {
   const auto contradiction = [&](const std::string& what, const std::string& given, const std::string& kept) {
     return std::runtime_error(
         fmt::format("--resume: the run in {} was begun with {} {}, not {}: leave it out, or "
@@ -232,7 +232,7 @@ void checkAgainst(const OptimizeArguments& arguments, const lab::OptimizationCon
   };
   if (!arguments.task.empty() && arguments.task != begun.task)
     throw contradiction("task", arguments.task, begun.task);
-  lab::OptimizationConfig given = arguments.config;
+  lab::OptimizationSettings given = arguments.settings;
   given.restarts = lab::restartSchemeOf(arguments.restarts);
   const nlohmann::json now = given.toJson();
   const nlohmann::json then = begun.toJson();
@@ -247,19 +247,19 @@ void checkAgainst(const OptimizeArguments& arguments, const lab::OptimizationCon
 
 lab::OptimizationRun openRun(OptimizeArguments& arguments, bool generationsGiven) {
   if (arguments.resume) {
-    checkAgainst(arguments, lab::OptimizationRun::readConfig(arguments.out));
+    checkAgainst(arguments, lab::OptimizationRun::readSettings(arguments.out));
     return lab::OptimizationRun::resume(
         arguments.out, dataFolder(),
-        generationsGiven ? std::optional<int>(arguments.config.generations) : std::nullopt);
+        generationsGiven ? std::optional<int>(arguments.settings.generations) : std::nullopt);
   }
-  lab::OptimizationConfig& config = arguments.config;
-  config.task = arguments.task;
-  lab::findTask(config.task);
-  config.restarts = lab::restartSchemeOf(arguments.restarts);
-  config.date = today();
-  config.version = NONET_VERSION;
-  lab::setStart(config, dataFolder(), arguments.parameterFiles);
-  return lab::OptimizationRun::create(arguments.out, config, dataFolder());
+  lab::OptimizationSettings& settings = arguments.settings;
+  settings.task = arguments.task;
+  lab::findTask(settings.task);
+  settings.restarts = lab::restartSchemeOf(arguments.restarts);
+  settings.date = today();
+  settings.version = NONET_VERSION;
+  lab::setStart(settings, dataFolder(), arguments.parameterFiles);
+  return lab::OptimizationRun::create(arguments.out, settings, dataFolder());
 }
 
 int runMpi(OptimizeArguments& arguments, bool generationsGiven) {
@@ -267,8 +267,8 @@ int runMpi(OptimizeArguments& arguments, bool generationsGiven) {
   if (job.rank() != 0) {
     const std::string text = job.share({});
     if (text.empty()) return 1;  // rank 0 has said why
-    const auto config = lab::OptimizationConfig::fromJson(nlohmann::json::parse(text));
-    lab::serveEvaluations(job, lab::makeObjective(config, dataFolder()));
+    const auto settings = lab::OptimizationSettings::fromJson(nlohmann::json::parse(text));
+    lab::serveEvaluations(job, lab::makeObjective(settings, dataFolder()));
     return 0;
   }
   std::unique_ptr<lab::OptimizationRun> run;
@@ -278,30 +278,30 @@ int runMpi(OptimizeArguments& arguments, bool generationsGiven) {
     job.share({});
     throw;
   }
-  job.share(run->config().toJson().dump());
-  const auto evaluator = lab::makeMpiEvaluator(job, lab::makeObjective(run->config(), dataFolder()));
+  job.share(run->settings().toJson().dump());
+  const auto evaluator = lab::makeMpiEvaluator(job, lab::makeObjective(run->settings(), dataFolder()));
   return optimize(*run, *evaluator, arguments.out);
 }
 
 int runThreads(OptimizeArguments& arguments, bool generationsGiven) {
   lab::OptimizationRun run = openRun(arguments, generationsGiven);
   const auto evaluator =
-      lab::makeThreadEvaluator(lab::makeObjective(run.config(), dataFolder()), threadsOf(arguments));
+      lab::makeThreadEvaluator(lab::makeObjective(run.settings(), dataFolder()), threadsOf(arguments));
   return optimize(run, *evaluator, arguments.out);
 }
 
 int compareSolvers(OptimizeArguments& arguments) {
-  arguments.config.task = arguments.task;
-  lab::setStart(arguments.config, dataFolder(), arguments.parameterFiles);
+  arguments.settings.task = arguments.task;
+  lab::setStart(arguments.settings, dataFolder(), arguments.parameterFiles);
   const lab::SolverComparison comparison =
-      lab::compareSolvers(arguments.config, arguments.compareSolvers, dataFolder(), threadsOf(arguments));
+      lab::compareSolvers(arguments.settings, arguments.compareSolvers, dataFolder(), threadsOf(arguments));
   for (const auto& [exact, quick] : comparison.fitness)
     fmt::print("exact {:9.4f}  quick {:9.4f}\n", exact, quick);
   fmt::print(
       "{} sets, {} trials each: Spearman's rank correlation {:.3f}; seconds per trial: exact {:.3f}, "
       "quick {:.3f}\n",
-      comparison.fitness.size(), arguments.config.trials, comparison.rankCorrelation, comparison.exactSeconds,
-      comparison.quickSeconds);
+      comparison.fitness.size(), arguments.settings.trials, comparison.rankCorrelation,
+      comparison.exactSeconds, comparison.quickSeconds);
   return 0;
 }
 
@@ -317,28 +317,29 @@ int runOptimize(OptimizeArguments& arguments, bool generationsGiven) {
 }
 
 void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
-  lab::OptimizationConfig& config = arguments.config;
-  command.add_option("--type", config.robotType, "Robot type")->check(CLI::Range(0, 4));
-  command.add_option("--population", config.population, "Candidates per generation; 0: CMA-ES' default");
-  command.add_option("--sigma", config.sigma, "First step size as a share of the search ranges")
+  lab::OptimizationSettings& settings = arguments.settings;
+  command.add_option("--type", settings.robotType, "Robot type")->check(CLI::Range(0, 4));
+  command.add_option("--population", settings.population, "Candidates per generation; 0: CMA-ES' default");
+  command.add_option("--sigma", settings.sigma, "First step size as a share of the search ranges")
       ->capture_default_str();
-  command.add_option("--trials", config.trials, "Seeds per candidate, the same for all of a generation")
+  command.add_option("--trials", settings.trials, "Seeds per candidate, the same for all of a generation")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--validation-every", config.validationEvery, "Generations between validations")
+  command.add_option("--validation-every", settings.validationEvery, "Generations between validations")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("--validation-trials", config.validationTrials, "Fresh seeds per validation")
+  command.add_option("--validation-trials", settings.validationTrials, "Fresh seeds per validation")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_flag("--quick", config.quickSolver,
+  command.add_flag("--quick", settings.quickSolver,
                    "Quick physics: the same equations, five times faster, not to the last bit");
-  command.add_flag("--racing", config.racing, "The worse half of a generation gets half of the trials");
+  command.add_flag("--racing", settings.racing, "The worse half of a generation gets half of the trials");
   command.add_option("--restarts", arguments.restarts, "none, ipop or bipop")->capture_default_str();
-  command.add_option("--keys", config.keys, "Prefixes of the parameters to move; default: the task's");
+  command.add_option("--keys", settings.keys, "Prefixes of the parameters to move; default: the task's");
   command.add_option("--params", arguments.parameterFiles, "Parameter files where the search starts")
       ->check(CLI::ExistingFile);
-  command.add_option("--seed", config.seed, "Decides every random number of the run")->capture_default_str();
+  command.add_option("--seed", settings.seed, "Decides every random number of the run")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -349,7 +350,7 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
   command->add_option("task", arguments->task, "What to learn; --list shows the tasks");
   command->add_option("--out", arguments->out, "Folder of the run; with --accept the file to write");
   CLI::Option* generations =
-      command->add_option("--generations", arguments->config.generations, "How many; extends with --resume")
+      command->add_option("--generations", arguments->settings.generations, "How many; extends with --resume")
           ->capture_default_str();
   addSearchOptions(*command, *arguments);
   arguments->command = command;

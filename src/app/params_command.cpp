@@ -32,7 +32,7 @@ struct ParamsArguments {
 
 constexpr const char* kCode = "code";
 
-/// The same layers as those of agent::makeAgentConfig().
+/// The same layers as those of agent::makeAgentSettings().
 Layers layersOf(const ParamsArguments& arguments, const std::string& data) {
   agent::AgentParameters defaults;
   defaults.motion.skills = motion::declareSkillParameters(data + "/skills");

@@ -54,13 +54,13 @@ constexpr std::size_t kReadSize = 65536;  // bytes
 
 class PlayClient {
  public:
-  explicit PlayClient(const PlayOptions& options)
-      : options_(options), turn_(options.host, options.port), signals_(io_, SIGINT, SIGTERM) {
-    if (!options.draw.empty()) painter_ = std::make_unique<RobovizPainter>(options.draw);
-    if (!options.trace.empty()) trace_ = std::make_unique<TraceFile>(options.trace);
-    if (!options.record.empty()) openLog(options.record);
-    if (!options.report.empty()) {
-      report_.open(options.report);
+  explicit PlayClient(const PlaySettings& settings)
+      : settings_(settings), turn_(settings.host, settings.port), signals_(io_, SIGINT, SIGTERM) {
+    if (!settings.draw.empty()) painter_ = std::make_unique<RobovizPainter>(settings.draw);
+    if (!settings.trace.empty()) trace_ = std::make_unique<TraceFile>(settings.trace);
+    if (!settings.record.empty()) openLog(settings.record);
+    if (!settings.report.empty()) {
+      report_.open(settings.report);
       if (!report_) throw std::runtime_error(cannotWriteReport());
     }
   }
@@ -85,8 +85,8 @@ class PlayClient {
   /// One connection with all that belongs to it. Its handlers hold it, and do nothing once there is a newer
   /// one.
   struct Connection {
-    Connection(asio::io_context& io, const agent::SessionOptions& options)
-        : socket(io), silence(io), session(options) {}
+    Connection(asio::io_context& io, const agent::SessionSettings& settings)
+        : socket(io), silence(io), session(settings) {}
 
     tcp::socket socket;
     Alarm silence;
@@ -105,10 +105,10 @@ class PlayClient {
   // -- connecting
 
   void awaitTurn() {
-    const double patience = kTurnPatience + kTurnPatiencePerUnum * options_.session.agent.unum;
-    if (options_.atOnce || turn_.take() || waited() > patience) {
+    const double patience = kTurnPatience + kTurnPatiencePerUnum * settings_.session.agent.unum;
+    if (settings_.atOnce || turn_.take() || waited() > patience) {
       started_ = Clock::now();  // waiting for the others does not count as waiting for the server
-      deadline_.set(options_.wait, [this] { giveUp(); });
+      deadline_.set(settings_.wait, [this] { giveUp(); });
       connect();
     } else {
       pause_.set(kTurnInterval, [this] { awaitTurn(); });
@@ -121,9 +121,9 @@ class PlayClient {
       link_->silence.cancel();
       link_->socket.close(ignored);
     }
-    link_ = std::make_shared<Connection>(io_, options_.session);
+    link_ = std::make_shared<Connection>(io_, settings_.session);
     resolver_.async_resolve(
-        options_.host, std::to_string(options_.port),
+        settings_.host, std::to_string(settings_.port),
         [this, link = link_](std::error_code error, const tcp::resolver::results_type& endpoints) {
           if (isOver(link)) return;
           if (error) return retry(error);
@@ -137,15 +137,16 @@ class PlayClient {
 
   void retry(std::error_code error) {
     trouble_ = error.message();
-    const double pause = std::clamp(options_.wait - waited(), 0.0, nextPause_);
-    say("waiting for a server at {}:{} ({}), next try in {:.1f} s", options_.host, options_.port, trouble_,
+    const double pause = std::clamp(settings_.wait - waited(), 0.0, nextPause_);
+    say("waiting for a server at {}:{} ({}), next try in {:.1f} s", settings_.host, settings_.port, trouble_,
         pause);
     pause_.set(pause, [this] { connect(); });
     nextPause_ = std::min(nextPause_ * 1.5, kLongestPause);
   }
 
   void giveUp() {
-    const std::string tried = fmt::format("at {}:{} after {:.1f} s", options_.host, options_.port, waited());
+    const std::string tried =
+        fmt::format("at {}:{} after {:.1f} s", settings_.host, settings_.port, waited());
     const bool silent = link_ && link_->greeted != Clock::time_point();
     finish(PlayExit::NoServer,
            silent
@@ -159,7 +160,7 @@ class PlayClient {
     link->greeted = Clock::now();
     send(link, link->session.begin());
     read(link);
-    if (options_.rescue) link->silence.set(kSilenceBeforeSyn, [this] { breakSilence(); });
+    if (settings_.rescue) link->silence.set(kSilenceBeforeSyn, [this] { breakSilence(); });
   }
 
   void breakSilence() {
@@ -182,8 +183,8 @@ class PlayClient {
       if (!error) error = absorb(link, count);
       if (isOver(link)) return;
       if (error) {
-        lose(PlayExit::ServerGone,
-             fmt::format("the server at {}:{} is gone ({})", options_.host, options_.port, error.message()));
+        lose(PlayExit::ServerGone, fmt::format("the server at {}:{} is gone ({})", settings_.host,
+                                               settings_.port, error.message()));
         return;
       }
       reply(link);
@@ -206,8 +207,8 @@ class PlayClient {
         if (isOver(link)) return {};
       }
       if (link->frames.failed()) {
-        lose(PlayExit::Error, fmt::format("{}:{} does not speak our protocol: {}", options_.host,
-                                          options_.port, link->frames.error()));
+        lose(PlayExit::Error, fmt::format("{}:{} does not speak our protocol: {}", settings_.host,
+                                          settings_.port, link->frames.error()));
         return {};
       }
       count = link->socket.read_some(room(*link), error);
@@ -238,13 +239,13 @@ class PlayClient {
                                           "there are two other teams already, "
                                           "or too many robots of type {} (at most 7 of a type, 9 of two "
                                           "types, and 3 types in a full team)",
-                                          options_.session.agent.team, options_.session.agent.unum,
-                                          options_.session.agent.robotType));
+                                          settings_.session.agent.team, settings_.session.agent.unum,
+                                          settings_.session.agent.robotType));
     } else if (session.stage() == agent::Session::Stage::Playing && !connection.accepted) {
       connection.accepted = true;
       turn_.release();
       const protocol::GameStatus& game = session.percept().game;
-      say("connected to {}:{} as {} {} ({})", options_.host, options_.port, options_.session.agent.team,
+      say("connected to {}:{} as {} {} ({})", settings_.host, settings_.port, settings_.session.agent.team,
           game.unum.value_or(0), game.side == protocol::TeamSide::Right ? "right" : "left");
     }
   }
@@ -290,8 +291,8 @@ class PlayClient {
       lastInPlay_ = Clock::now();
       nextPause_ = kFirstPause;
     }
-    const bool inTime = lastInPlay_ && Seconds(Clock::now() - *lastInPlay_).count() < options_.wait;
-    if (!options_.reconnect || !inTime) return finish(exit, message);
+    const bool inTime = lastInPlay_ && Seconds(Clock::now() - *lastInPlay_).count() < settings_.wait;
+    if (!settings_.reconnect || !inTime) return finish(exit, message);
     say("{}, coming back", message);
     ++lives_;
     trouble_ = message;
@@ -323,9 +324,9 @@ class PlayClient {
   // -- the log
 
   void openLog(const std::string& path) {
-    log_ = std::make_unique<protocol::LogWriter>(path, options_.recordHeader);
-    if (options_.session.agent.startPose)
-      log_->comment(agent::startComment(*options_.session.agent.startPose));
+    log_ = std::make_unique<protocol::LogWriter>(path, settings_.recordHeader);
+    if (settings_.session.agent.startPose)
+      log_->comment(agent::startComment(*settings_.session.agent.startPose));
   }
 
   /// Each connection is another life of the agent, so it has a log of its own: 3.zst, 3.2.zst, 3.3.zst.
@@ -333,7 +334,7 @@ class PlayClient {
     if (!log_) return;
     log_->close();
     watchLog();
-    const std::filesystem::path first(options_.record);
+    const std::filesystem::path first(settings_.record);
     const std::string name =
         fmt::format("{}.{}{}", first.stem().string(), lives_, first.extension().string());
     try {
@@ -373,7 +374,7 @@ class PlayClient {
           "tokens",
           counts.messages, counts.answers, counts.passedOver, counts.lostCycles, counts.unknownTokens);
     }
-    if (options_.report.empty()) return;
+    if (settings_.report.empty()) return;
     const nlohmann::json json = {{"exit", static_cast<int>(exit_)},
                                  {"messages", counts.messages},
                                  {"answers", counts.answers},
@@ -386,17 +387,17 @@ class PlayClient {
   }
 
   std::string cannotWriteReport() const {
-    return fmt::format("--report {}: cannot be written ({})", options_.report, std::strerror(errno));
+    return fmt::format("--report {}: cannot be written ({})", settings_.report, std::strerror(errno));
   }
 
   template <class... Arguments>
   void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    if (options_.quiet) return;
+    if (settings_.quiet) return;
     fmt::print("{}\n", fmt::format(format, std::forward<Arguments>(arguments)...));
     std::fflush(stdout);
   }
 
-  PlayOptions options_;
+  PlaySettings settings_;
   Turn turn_;
   asio::io_context io_{1};
   asio::signal_set signals_;
@@ -422,8 +423,8 @@ class PlayClient {
 
 }  // namespace
 
-PlayExit play(const PlayOptions& options) {
-  return PlayClient(options).run();
+PlayExit play(const PlaySettings& settings) {
+  return PlayClient(settings).run();
 }
 
 }  // namespace nonet::app

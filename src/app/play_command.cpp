@@ -11,7 +11,7 @@ namespace {
 
 struct PlayArguments {
   agent::AgentChoice choice;
-  PlayOptions play;
+  PlaySettings play;
   std::string sync = "auto";
   std::vector<double> start;  // x, y in metres; heading 0
   std::string challenge;
@@ -40,9 +40,9 @@ int runPlay(PlayArguments& arguments) {
   if (!arguments.challenge.empty()) {
     chooseChallenge(arguments);
   }
-  PlayOptions& play = arguments.play;
+  PlaySettings& play = arguments.play;
   if (arguments.draw) play.draw = arguments.drawHost;
-  play.session.agent = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
+  play.session.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
   // A server in real time ignores (syn), so there is nothing to find out: auto means on, and takes care of
   // servers that hang before the first message.
   play.session.sync = arguments.sync != "off";
@@ -57,7 +57,7 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("play", "One agent plays on a server");
   auto arguments = std::make_shared<PlayArguments>();
   agent::AgentChoice& choice = arguments->choice;
-  PlayOptions& play = arguments->play;
+  PlaySettings& play = arguments->play;
   command->add_option("--host", play.host, "Host of the server")->capture_default_str();
   command->add_option("--port", play.port, "Port for agents")
       ->capture_default_str()

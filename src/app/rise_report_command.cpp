@@ -24,7 +24,7 @@ struct RiseReportArguments {
 int run(const RiseReportArguments& arguments) {
   lab::RiseReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data)));
+  settings.setup = lab::trialSettings(agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data)));
   Console console(stderr);
   settings.progress = console.trials();
   const lab::RiseReport report = lab::measureRising(settings);

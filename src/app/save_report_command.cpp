@@ -29,7 +29,7 @@ int run(const SaveReportArguments& arguments) {
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   lab::SaveReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.goalie = agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data));
+  settings.goalie = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
   Console console(stderr);
   settings.progress = console.trials();
   const lab::SaveReport report = lab::measureSaves(settings);

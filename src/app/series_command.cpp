@@ -16,11 +16,11 @@ namespace {
 struct SideArguments {
   std::string word = "own";
   std::string binary;
-  lab::SideChoice side;  // name, parameter files and assignments
+  lab::SideSettings side;  // name, parameter files and assignments
 };
 
 struct SeriesArguments {
-  lab::SeriesChoice choice;
+  lab::SeriesSettings settings;
   SideArguments a;
   SideArguments b;
   std::string where;
@@ -31,11 +31,11 @@ struct SeriesArguments {
   int jobs = 0;
 };
 
-lab::SideChoice sideOf(const SideArguments& arguments, const std::string& dataFolder) {
+lab::SideSettings sideOf(const SideArguments& arguments, const std::string& dataFolder) {
   if (!arguments.binary.empty() && arguments.word != "own")
     throw std::runtime_error(
         fmt::format("{}: give the side or an executable for it, not both", arguments.word));
-  lab::SideChoice side =
+  lab::SideSettings side =
       lab::sideFromWord(arguments.binary.empty() ? arguments.word : arguments.binary, dataFolder);
   side.name = arguments.side.name;
   side.assignments = arguments.side.assignments;
@@ -49,7 +49,7 @@ lab::SideChoice sideOf(const SideArguments& arguments, const std::string& dataFo
 
 /// In this process if that can be.
 std::string placeFor(const SeriesArguments& arguments) {
-  const bool ours = arguments.choice.a.ours() && arguments.choice.b.ours();
+  const bool ours = arguments.settings.a.ours() && arguments.settings.b.ours();
   if (arguments.where.empty()) return ours ? "process" : "tcp";
   if (arguments.where == "process" && !ours)
     throw std::runtime_error(
@@ -62,42 +62,42 @@ void assign(SeriesArguments& arguments) {
   std::vector<std::string> ofBoth;
   for (const std::string& assignment : arguments.assignments) {
     const bool parameter = assignment.substr(0, assignment.find('=')).find('.') != std::string::npos;
-    (parameter ? ofBoth : arguments.choice.settingAssignments).push_back(assignment);
+    (parameter ? ofBoth : arguments.settings.settingAssignments).push_back(assignment);
   }
-  for (lab::SideChoice* side : {&arguments.a.side, &arguments.b.side})
+  for (lab::SideSettings* side : {&arguments.a.side, &arguments.b.side})
     side->assignments.insert(side->assignments.begin(), ofBoth.begin(), ofBoth.end());
 }
 
 int runSeries(SeriesArguments& arguments) {
   assign(arguments);
-  lab::SeriesChoice& choice = arguments.choice;
+  lab::SeriesSettings& settings = arguments.settings;
   const std::string data = std::filesystem::absolute(dataFolder(arguments.data)).string();
-  choice.a = sideOf(arguments.a, data);
-  choice.b = sideOf(arguments.b, data);
-  if (choice.a.name == choice.b.name)
+  settings.a = sideOf(arguments.a, data);
+  settings.b = sideOf(arguments.b, data);
+  if (settings.a.name == settings.b.name)
     throw std::runtime_error("the teams need different names (--a-name, --b-name)");
-  for (const std::string& name : {choice.a.name, choice.b.name}) checkTeamName(name);
-  if (!arguments.sequential.empty()) choice.sequential = lab::parseSequentialBounds(arguments.sequential);
-  choice.place = placeFor(arguments);
-  choice.commandLine = commandLine();
+  for (const std::string& name : {settings.a.name, settings.b.name}) checkTeamName(name);
+  if (!arguments.sequential.empty()) settings.sequential = lab::parseSequentialBounds(arguments.sequential);
+  settings.place = placeFor(arguments);
+  settings.commandLine = commandLine();
   if (arguments.out.empty())
     arguments.out = fmt::format("logs/series-{:%Y%m%d-%H%M%S}", fmt::gmtime(std::time(nullptr)));
 
   Console console;
-  const SeriesRun run = playSeries(choice, arguments.out, arguments.jobs, data, console, "");
+  const SeriesRun run = playSeries(settings, arguments.out, arguments.jobs, data, console, "");
   const lab::Series& series = *run.series;
   if (!run.complete) {
-    fmt::print("{}stopped; the same command goes on (--out {})\n", series.result().toText(series.choice()),
+    fmt::print("{}stopped; the same command goes on (--out {})\n", series.result().toText(series.settings()),
                arguments.out);
     return 1;
   }
-  fmt::print("{}result in {}/result.json\n", run.result.toText(series.choice()), arguments.out);
+  fmt::print("{}result in {}/result.json\n", run.result.toText(series.settings()), arguments.out);
   return 0;
 }
 
 void addSideOptions(CLI::App& command, const std::string& letter, const std::string& alias,
                     SideArguments& arguments) {
-  lab::SideChoice& side = arguments.side;
+  lab::SideSettings& side = arguments.side;
   command
       .add_option(fmt::format("--{}-binary,--{}-binary", letter, alias), arguments.binary,
                   fmt::format("Another executable of Nonet for side {}, of an older commit say", letter))
@@ -121,7 +121,7 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand(
       "series", "Many paired games between two sides, until it is clear which is stronger");
   auto arguments = std::make_shared<SeriesArguments>();
-  lab::SeriesChoice& choice = arguments->choice;
+  lab::SeriesSettings& settings = arguments->settings;
   arguments->a.side.name = "A";
   arguments->b.side.name = "B";
   command
@@ -138,23 +138,23 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
       "agent a process; realtime: the same by the clock, for agents that do not send (syn); or "
       "HOST:PORT:MONITORPORT of a server that runs");
   command->add_option(
-      "--server-command", choice.serverCommand,
+      "--server-command", settings.serverCommand,
       "Shell command that starts that server before each game: {port} {monitor} {seed} {half} "
       "(seconds of a half)");
   command->add_option("--data", arguments->data, "Folder with params/ and skills/ of this program's sides")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--pairs", choice.pairs, "Pairs of games, at most if --sprt is given")
+  command->add_option("--pairs", settings.pairs, "Pairs of games, at most if --sprt is given")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  command->add_option("--minutes", choice.minutes, "Game time of one game, two halves")
+  command->add_option("--minutes", settings.minutes, "Game time of one game, two halves")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
-  command->add_option("--seed", choice.seed, "Seed of the first pair; each pair has the next one")
+  command->add_option("--seed", settings.seed, "Seed of the first pair; each pair has the next one")
       ->capture_default_str();
-  command->add_option("--players", choice.players, "Players a side")
+  command->add_option("--players", settings.players, "Players a side")
       ->capture_default_str()
       ->check(CLI::Range(1, 11));
-  command->add_option("--kick-off-wait", choice.kickOffWait, "Simulated seconds before each half")
+  command->add_option("--kick-off-wait", settings.kickOffWait, "Simulated seconds before each half")
       ->capture_default_str();
   command->add_option(
       "--sprt", arguments->sequential,
@@ -164,10 +164,10 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->add_flag(
-      "--monitor-logs", choice.monitorLogs,
+      "--monitor-logs", settings.monitorLogs,
       "Keep the monitor stream of each game for `nonet view`, game-PAIR-GAME.mon in the folder");
   command->add_option("--out", arguments->out, "Folder; a series that is there already goes on");
-  command->add_option("--settings", choice.settingFiles, "Files with settings of the server")
+  command->add_option("--settings", settings.settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--set", arguments->assignments,

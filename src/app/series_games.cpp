@@ -26,7 +26,7 @@ constexpr long kCyclesBetweenReports = 50;
 // A game on the embedded server of this process, agents over TCP.
 class TcpGame {
  public:
-  TcpGame(const lab::SeriesGame& game, const lab::MatchChoice& match, bool lockStep, SideAgents& agents,
+  TcpGame(const lab::SeriesGame& game, const lab::MatchSettings& match, bool lockStep, SideAgents& agents,
           const std::function<bool(double)>& goOn)
       : game_(game),
         match_(match),
@@ -35,7 +35,7 @@ class TcpGame {
         goOn_(goOn),
         watcher_(match),
         statistics_({match.settings.fieldLength, match.settings.fieldWidth, match.settings.goalWidth}),
-        server_(lab::matchSettings(match), match.seed, serverOptions()) {}
+        server_(lab::matchSettings(match), match.seed, serverSettings()) {}
 
   lab::GameRecord play() {
     for (const bool rightTeam : {false, true})
@@ -50,8 +50,8 @@ class TcpGame {
   }
 
  private:
-  sim::ServerOptions serverOptions() const {
-    sim::ServerOptions options;
+  sim::ServerSettings serverSettings() const {
+    sim::ServerSettings options;
     options.agentPort = 0;
     options.monitorPort = 0;
     options.lockStep = lockStep_;
@@ -115,7 +115,7 @@ class TcpGame {
   }
 
   lab::SeriesGame game_;
-  const lab::MatchChoice& match_;
+  const lab::MatchSettings& match_;
   bool lockStep_;
   SideAgents& agents_;
   const std::function<bool(double)>& goOn_;
@@ -157,20 +157,20 @@ std::optional<ServerPlace> serverPlace(const std::string& place) {
   return server;
 }
 
-lab::PlayGame gamesOfProcesses(const lab::SeriesChoice& choice, const std::string& folder,
+lab::PlayGame gamesOfProcesses(const lab::SeriesSettings& settings, const std::string& folder,
                                const std::string& dataFolder) {
-  const auto programs = std::make_shared<SideAgents::Programs>(choice);
-  return [choice, folder, dataFolder, programs](const lab::SeriesGame& game,
-                                                const std::function<bool(double)>& goOn) {
+  const auto programs = std::make_shared<SideAgents::Programs>(settings);
+  return [settings, folder, dataFolder, programs](const lab::SeriesGame& game,
+                                                  const std::function<bool(double)>& goOn) {
     const auto start = Clock::now();
-    lab::MatchChoice match = lab::matchOf(choice, game, folder);
+    lab::MatchSettings match = lab::matchOf(settings, game, folder);
     const std::string logs =
         fs::absolute(fmt::format("{}/games/{}-{}", folder, game.pair, game.game)).string();
     fs::create_directories(logs);
-    SideAgents agents(choice, game, *programs, match, dataFolder, logs);
-    lab::GameRecord record = serverPlace(choice.place)
-                                 ? playOnServer(choice, game, match, agents, goOn, logs)
-                                 : TcpGame(game, match, choice.place != "realtime", agents, goOn).play();
+    SideAgents agents(settings, game, *programs, match, dataFolder, logs);
+    lab::GameRecord record = serverPlace(settings.place)
+                                 ? playOnServer(settings, game, match, agents, goOn, logs)
+                                 : TcpGame(game, match, settings.place != "realtime", agents, goOn).play();
     agents.addTo(record);
     record.times["wall_time_s"] = std::chrono::duration<double>(Clock::now() - start).count();
     // What agents say matters only if something went wrong; that throws above.

@@ -15,31 +15,31 @@
 
 namespace nonet::app {
 
-SeriesRun playSeries(lab::SeriesChoice choice, const std::string& folder, int jobs,
+SeriesRun playSeries(lab::SeriesSettings settings, const std::string& folder, int jobs,
                      const std::string& dataFolder, Console& console, const std::string& title) {
-  const bool elsewhere = serverPlace(choice.place).has_value();
-  choice.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
-  choice.version = versionText();
-  for (lab::SideChoice* side : {&choice.a, &choice.b})
+  const bool elsewhere = serverPlace(settings.place).has_value();
+  settings.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
+  settings.version = versionText();
+  for (lab::SideSettings* side : {&settings.a, &settings.b})
     side->fingerprint = lab::fingerprintOf(*side, dataFolder);
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   SeriesRun run;
-  run.series = std::make_unique<lab::Series>(folder, choice);
+  run.series = std::make_unique<lab::Series>(folder, settings);
   lab::Series& series = *run.series;
-  lab::writeOverlays(series.choice(), folder, dataFolder);
+  lab::writeOverlays(series.settings(), folder, dataFolder);
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int atOnce = elsewhere ? 1 : jobs > 0 ? jobs : cores;
-  console.say(fmt::format("{}{} pairs, seeds {} to {}, {} games at a time, in {}", title, choice.pairs,
-                          choice.seed, choice.seed + static_cast<std::uint64_t>(choice.pairs) - 1, atOnce,
-                          folder));
+  console.say(fmt::format("{}{} pairs, seeds {} to {}, {} games at a time, in {}", title, settings.pairs,
+                          settings.seed, settings.seed + static_cast<std::uint64_t>(settings.pairs) - 1,
+                          atOnce, folder));
   if (series.played() > 0) console.say(fmt::format("resumed: {} games are there", series.played()));
   const StopSignal stopSignal;
-  const lab::PlayGame play = choice.place == "process"
-                                 ? lab::inProcessGames(series.choice(), folder, dataFolder)
-                                 : gamesOfProcesses(series.choice(), folder, dataFolder);
+  const lab::PlayGame play = settings.place == "process"
+                                 ? lab::inProcessGames(series.settings(), folder, dataFolder)
+                                 : gamesOfProcesses(series.settings(), folder, dataFolder);
   run.complete = lab::playSeries(series, atOnce, play, [&](const lab::SeriesProgress& progress) {
-    if (console.due()) console.progress(title + progress.line(series.choice()));
+    if (console.due()) console.progress(title + progress.line(series.settings()));
     return !StopSignal::came();
   });
   console.end();

@@ -13,7 +13,7 @@ namespace nonet::app {
 namespace {
 
 struct ServeArguments {
-  sim::ServerOptions server;
+  sim::ServerSettings server;
   std::uint64_t seed = 1;
   std::string field = "30x20";
   std::vector<std::string> files;

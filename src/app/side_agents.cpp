@@ -10,7 +10,7 @@
 namespace nonet::app {
 namespace {
 
-std::optional<PlayProgram> programOf(const lab::SideChoice& side) {
+std::optional<PlayProgram> programOf(const lab::SideSettings& side) {
   if (!side.nonet()) return std::nullopt;
   return side.executable.empty() ? PlayProgram() : PlayProgram(side.executable);
 }
@@ -27,12 +27,13 @@ std::string filledIn(std::string text,
   return text;
 }
 
-SideAgents::Programs::Programs(const lab::SeriesChoice& choice)
-    : a(programOf(choice.a)), b(programOf(choice.b)) {}
+SideAgents::Programs::Programs(const lab::SeriesSettings& settings)
+    : a(programOf(settings.a)), b(programOf(settings.b)) {}
 
-SideAgents::SideAgents(const lab::SeriesChoice& choice, const lab::SeriesGame& game, const Programs& programs,
-                       const lab::MatchChoice& match, const std::string& dataFolder, const std::string& logs)
-    : choice_(choice),
+SideAgents::SideAgents(const lab::SeriesSettings& settings, const lab::SeriesGame& game,
+                       const Programs& programs, const lab::MatchSettings& match,
+                       const std::string& dataFolder, const std::string& logs)
+    : settings_(settings),
       game_(game),
       programs_(programs),
       match_(match),
@@ -41,10 +42,10 @@ SideAgents::SideAgents(const lab::SeriesChoice& choice, const lab::SeriesGame& g
 
 void SideAgents::start(bool rightTeam, const ServerPlace& server, bool lockStep) {
   const bool sideB = rightTeam == game_.aLeft();
-  const lab::SideChoice& side = sideB ? choice_.b : choice_.a;
+  const lab::SideSettings& side = sideB ? settings_.b : settings_.a;
   const std::optional<PlayProgram>& program = sideB ? programs_.b : programs_.a;
   if (!program) return startForeign(side, rightTeam, server);
-  const lab::TeamChoice& team = rightTeam ? match_.right : match_.left;
+  const lab::TeamSettings& team = rightTeam ? match_.right : match_.left;
   for (int unum = 1; unum <= team.players; ++unum) {
     const std::string name = fmt::format("{}/{}_{}", logs_, team.name, unum);
     PlayPlace place{server.host, server.port, lockStep, team.dataFolder, name + ".json"};
@@ -54,8 +55,8 @@ void SideAgents::start(bool rightTeam, const ServerPlace& server, bool lockStep)
   }
 }
 
-void SideAgents::startForeign(const lab::SideChoice& side, bool rightTeam, const ServerPlace& server) {
-  const lab::TeamChoice& team = rightTeam ? match_.right : match_.left;
+void SideAgents::startForeign(const lab::SideSettings& side, bool rightTeam, const ServerPlace& server) {
+  const lab::TeamSettings& team = rightTeam ? match_.right : match_.left;
   const std::string line = filledIn(side.command, {{"host", server.host},
                                                    {"port", std::to_string(server.port)},
                                                    {"monitor", std::to_string(server.monitorPort)},
@@ -82,7 +83,7 @@ std::string SideAgents::trouble() {
     AgentProcesses::Process& process = processes_.processes()[i];
     if (process.told || !crashed(i)) continue;
     process.told = true;
-    const lab::TeamChoice& team = agents_[i].rightTeam ? match_.right : match_.left;
+    const lab::TeamSettings& team = agents_[i].rightTeam ? match_.right : match_.left;
     return fmt::format("{}: {}", agents_[i].foreign ? "the command of team " + team.name : team.name,
                        endingOf(process));
   }

@@ -53,7 +53,7 @@ std::string skillIn(const fs::path& path) {
 /// A file beside others: the folder's skills with the numbers that stand there. What was learned for the
 /// skills of the data folder is not meant for these.
 void useFolder(const fs::path& folder, const std::vector<std::string>& assignments,
-               agent::AgentConfig& agent) {
+               agent::AgentSettings& agent) {
   agent.skillFolder = folder.empty() ? "." : folder.string();
   agent.parameters.motion.skills = motion::declareSkillParameters(agent.skillFolder);
   for (const std::string& text : assignments) config::assignParameter(agent.parameters, text);
@@ -65,15 +65,15 @@ void chooseSkill(const SkillPlayArguments& arguments, lab::SkillTrialSettings& s
   std::error_code ignored;
   if (file.extension() != ".skl") {
     settings.skill = arguments.skill;
-    settings.agent = agent::makeAgentConfig(arguments.choice, data);
+    settings.agent = agent::makeAgentSettings(arguments.choice, data);
   } else if (fs::equivalent(fs::absolute(file).parent_path(), fs::path(data) / "skills", ignored)) {
     settings.skill = skillIn(file);
-    settings.agent = agent::makeAgentConfig(arguments.choice, data);
+    settings.agent = agent::makeAgentSettings(arguments.choice, data);
   } else {
     settings.skill = skillIn(file);
     agent::AgentChoice choice = arguments.choice;
     choice.assignments.clear();
-    settings.agent = agent::makeAgentConfig(choice, data);
+    settings.agent = agent::makeAgentSettings(choice, data);
     useFolder(file.parent_path(), arguments.choice.assignments, settings.agent);
   }
 }

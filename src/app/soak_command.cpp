@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 struct SoakArguments {
   MatchSoakSettings matches;
   FaultSoakSettings faults;
-  lab::RandomEffectorsChoice effectors;
+  lab::RandomEffectorsSettings effectors;
   bool harm = false;
   double effectorMinutes = 0.0;
   std::uint64_t seed = 1;

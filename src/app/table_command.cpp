@@ -37,7 +37,7 @@ int runTable(TableArguments& arguments) {
   lab::TableSettings table = lab::readTable(arguments.file, data);
   if (arguments.pairs) table.games.pairs = *arguments.pairs;
   if (arguments.minutes) table.games.minutes = *arguments.minutes;
-  for (const lab::SideChoice& side : table.sides) checkTeamName(side.name);
+  for (const lab::SideSettings& side : table.sides) checkTeamName(side.name);
   table.games.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
   table.games.version = versionText();
   table.games.commandLine = commandLine();
@@ -49,10 +49,11 @@ int runTable(TableArguments& arguments) {
   std::vector<lab::TableEntry> entries = lab::tableEntries(table);
   bool complete = true;
   for (std::size_t i = 0; i < entries.size() && complete; ++i) {
-    const lab::SeriesChoice choice = lab::seriesOf(table, entries[i]);
+    const lab::SeriesSettings settings = lab::seriesOf(table, entries[i]);
     const SeriesRun run = playSeries(
-        choice, fmt::format("{}/{}-{}", arguments.out, choice.a.name, choice.b.name), arguments.jobs, data,
-        console, fmt::format("{} - {} ({} of {}): ", choice.a.name, choice.b.name, i + 1, entries.size()));
+        settings, fmt::format("{}/{}-{}", arguments.out, settings.a.name, settings.b.name), arguments.jobs,
+        data, console,
+        fmt::format("{} - {} ({} of {}): ", settings.a.name, settings.b.name, i + 1, entries.size()));
     entries[i].result = run.result;
     complete = run.complete;
     write(table, entries, arguments.out);

@@ -86,7 +86,7 @@ class TcpMatch {
         watcher_(settings.match),
         sink_(std::make_shared<ConsoleSink>(console)),
         logger_(sink_),
-        server_(lab::matchSettings(settings.match), settings.match.seed, serverOptions()) {}
+        server_(lab::matchSettings(settings.match), settings.match.seed, serverSettings()) {}
 
   lab::MatchResult run() {
     if (!settings_.logs.empty()) fs::create_directories(settings_.logs);
@@ -108,8 +108,8 @@ class TcpMatch {
   }
 
  private:
-  sim::ServerOptions serverOptions() const {
-    sim::ServerOptions server;
+  sim::ServerSettings serverSettings() const {
+    sim::ServerSettings server;
     server.address = "127.0.0.1";
     server.agentPort = settings_.port;
     server.monitorPort = settings_.monitorPort;
@@ -130,7 +130,7 @@ class TcpMatch {
   void startAgents() {
     for (const lab::PlayerRecord& player : watcher_.result().players) {
       const agent::AgentChoice agent = lab::agentChoice(settings_.match, player.rightTeam, player.unum);
-      const lab::TeamChoice& team = player.rightTeam ? settings_.match.right : settings_.match.left;
+      const lab::TeamSettings& team = player.rightTeam ? settings_.match.right : settings_.match.left;
       std::vector<std::string> command = playCommand(
           PlayProgram(), agent,
           {"127.0.0.1", server_.agentPort(), true, team.dataFolder, folder_.file(nameOf(player) + ".json")});

@@ -42,7 +42,7 @@ int run(WalkReportArguments arguments) {
     throw std::runtime_error("courses are walked in process only: leave out --tcp or --courses");
   lab::WalkReportSettings& settings = arguments.settings;
   settings.seed = arguments.choice.seed;
-  settings.setup = lab::trialSetup(agent::makeAgentConfig(arguments.choice, dataFolder(arguments.data)));
+  settings.setup = lab::trialSettings(agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data)));
   if (arguments.overTcp) settings.server = arguments.server;
   if (!arguments.traceFile.empty()) {
     writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));

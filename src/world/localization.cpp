@@ -64,8 +64,8 @@ Vector3 rotationVector(const Matrix3& R) {
 
 }  // namespace
 
-Localization::Localization(std::uint64_t seed, const LocalizationOptions& options)
-    : options_(options), large_(largeField()), small_(smallField()), map_(&large_), particles_(seed) {
+Localization::Localization(std::uint64_t seed, const LocalizationSettings& settings)
+    : settings_(settings), large_(largeField()), small_(smallField()), map_(&large_), particles_(seed) {
   particles_.scatter(*map_);
   // Nothing is known but the bounds of the camera's offset.
   belief_ = wideBelief({}, kFreeSigma, kFreeHeadingSigma, BodyState{});
@@ -165,26 +165,26 @@ void Localization::correct(const BodyState& body, const protocol::Vision& vision
   const Pose2 step = step_;
   step_ = {};
   if (frame_.landmarks().empty() && frame_.lines().empty()) {
-    if (options_.useFilter) particles_.predict(step, 0.01, 0.005);
+    if (settings_.useFilter) particles_.predict(step, 0.01, 0.005);
     return;
   }
-  if (options_.useFilter) {
+  if (settings_.useFilter) {
     const double heading = headingOf(body.R_GR);
     Pose3 X_LC = Pose3::Identity();
     X_LC.linear() = turnAboutZ(-heading) * body.R_GR;
     X_LC = X_LC * model::cameraPose(body.bodies);
-    ground_.assign(frame_, X_LC, belief_.offset, *map_, options_.useLines);
+    ground_.assign(frame_, X_LC, belief_.offset, *map_, settings_.useLines);
     const double moved = step.translation.norm();
     particles_.predict(step, 0.01 + 0.1 * moved, 0.005);
-    if (initialised_ && options_.useFit) particles_.insert(belief_.ground());
-    particles_.correct(ground_, *map_, initialised_ && options_.useFit);
+    if (initialised_ && settings_.useFit) particles_.insert(belief_.ground());
+    particles_.correct(ground_, *map_, initialised_ && settings_.useFit);
   }
-  if (!options_.useFit) {
+  if (!settings_.useFit) {
     followFilter(body);
     return;
   }
   bool good = initialised_ && track(body);
-  if (good && options_.useFilter) good = !challenged();
+  if (good && settings_.useFilter) good = !challenged();
   if (!good) good = relocate(body);
   if (!good) {
     // Nothing fits: trust the body for a moment, but less and less.
@@ -198,14 +198,14 @@ bool Localization::plausible(const FitReport& report) const {
   if (!report.ok) return false;
   const double freedom = report.residuals;
   if (report.cost > freedom + 4.0 * std::sqrt(2.0 * freedom) + 4.0) return false;
-  const int seen = options_.useLines ? static_cast<int>(frame_.lines().size()) : 0;
+  const int seen = settings_.useLines ? static_cast<int>(frame_.lines().size()) : 0;
   return 2 * report.lines >= seen - 2;
 }
 
 bool Localization::tryFit(PoseBelief belief, const BodyState& body) {
-  FitOptions options;
-  options.useLines = options_.useLines;
-  const FitReport report = fit_.update(belief, model::cameraPose(body.bodies), frame_, *map_, options);
+  FitSettings settings;
+  settings.useLines = settings_.useLines;
+  const FitReport report = fit_.update(belief, model::cameraPose(body.bodies), frame_, *map_, settings);
   report_ = report;
   if (!plausible(report)) return false;
   adopt(belief, body);
@@ -268,7 +268,7 @@ bool Localization::relocate(const BodyState& body) {
   if (tilted) {
     if (const auto belief = fromLandmarks(body, true); belief && tryFit(*belief, body)) return true;
   }
-  if (!options_.useFilter) return false;
+  if (!settings_.useFilter) return false;
   // Too little for geometry: ask the particles. Lines alone look alike from several places, so they must have
   // agreed for a while.
   const auto clusters = particles_.clusters();

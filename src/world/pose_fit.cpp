@@ -253,23 +253,23 @@ double PoseFit::solve(Problem& problem, int iterations) const {
 }
 
 FitReport PoseFit::update(PoseBelief& belief, const Pose3& X_RC, const VisionFrame& frame,
-                          const FieldMap& map, const FitOptions& options) {
+                          const FieldMap& map, const FitSettings& settings) {
   FitReport report;
   matches_.fill(-1);
   const PoseBelief prior = belief;
   Problem problem{prior, prior.covariance.llt().solve(BeliefMatrix::Identity()), prior, X_RC, frame, map};
-  problem.useLandmarks = options.useLandmarks;
+  problem.useLandmarks = settings.useLandmarks;
 
-  report.landmarks = options.useLandmarks ? static_cast<int>(frame.landmarks().size()) : 0;
+  report.landmarks = settings.useLandmarks ? static_cast<int>(frame.landmarks().size()) : 0;
   double cost = 0.0;
   if (report.landmarks > 0) {
-    cost = solve(problem, options.iterations);
+    cost = solve(problem, settings.iterations);
     problem.now.covariance = problem.posteriorInformation().llt().solve(BeliefMatrix::Identity());
   }
-  if (options.useLines && !frame.lines().empty()) {
+  if (settings.useLines && !frame.lines().empty()) {
     matchLines(problem);
     problem.useLines = true;
-    cost = solve(problem, options.iterations);
+    cost = solve(problem, settings.iterations);
     for (std::size_t i = 0; i < frame.lines().size(); ++i) report.lines += matches_[i] >= 0 ? 1 : 0;
   }
   report.residuals = problem.residuals;

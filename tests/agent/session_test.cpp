@@ -13,12 +13,12 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-SessionOptions options(bool sync = true) {
+SessionSettings options(bool sync = true) {
   AgentChoice choice;
   choice.unum = 5;
   choice.team = "Test";
   choice.robotType = 1;
-  return {makeAgentConfig(choice, NONET_SOURCE_DIR), sync};
+  return {makeAgentSettings(choice, NONET_SOURCE_DIR), sync};
 }
 
 std::string message(int cycle, const std::string& status = "") {

@@ -25,14 +25,14 @@ class Show : public testing::Test {
   }
   ~Show() override { std::filesystem::remove_all(folder_); }
 
-  AgentConfig config() const {
+  AgentSettings agentSettings() const {
     AgentChoice choice;
     choice.unum = 3;
-    AgentConfig config = makeAgentConfig(choice, NONET_SOURCE_DIR);
-    config.skillFolder = folder_.string();
-    config.parameters.motion.skills = {};
-    config.skill = motion::PlaySkill{std::string_view("lift"), model::Side::Right};
-    return config;
+    AgentSettings shown = makeAgentSettings(choice, NONET_SOURCE_DIR);
+    shown.skillFolder = folder_.string();
+    shown.parameters.motion.skills = {};
+    shown.skill = motion::PlaySkill{std::string_view("lift"), model::Side::Right};
+    return shown;
   }
 
   std::filesystem::path folder_ =
@@ -44,7 +44,7 @@ TEST_F(Show, PlaysTheSkillAgainAndAgain) {
   sim::Settings settings;
   settings.leftTeam = "Nonet";
   sim::Simulation simulation(settings, 1);
-  Agent agent(config());
+  Agent agent(agentSettings());
   protocol::InitEffector init;
   init.unum = 3;
   init.team.assign("Nonet");
@@ -83,11 +83,12 @@ TEST(ShownSkill, StandsInTheHeaderOfTheLog) {
   AgentChoice choice;
   choice.skill = "kick_power";
   choice.mirrorSkill = true;
-  const AgentConfig config = makeAgentConfig(choice, NONET_SOURCE_DIR);
-  ASSERT_TRUE(config.skill);
-  EXPECT_EQ(agentFromLog(logHeader(config, "test"), NONET_SOURCE_DIR, "log").skill, config.skill);
+  const AgentSettings agentSettings = makeAgentSettings(choice, NONET_SOURCE_DIR);
+  ASSERT_TRUE(agentSettings.skill);
+  EXPECT_EQ(agentFromLog(logHeader(agentSettings, "test"), NONET_SOURCE_DIR, "log").skill,
+            agentSettings.skill);
   choice.skill = "nosuch";
-  EXPECT_THROW(makeAgentConfig(choice, NONET_SOURCE_DIR), motion::SkillError);
+  EXPECT_THROW(makeAgentSettings(choice, NONET_SOURCE_DIR), motion::SkillError);
 }
 
 }  // namespace

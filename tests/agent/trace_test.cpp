@@ -11,11 +11,11 @@ namespace nonet::agent {
 namespace {
 
 TEST(Trace, SaysWhatTheAgentBelievesInAllThreeForms) {
-  AgentConfig config;
-  config.unum = 5;
-  config.team = "Reds";
-  config.skillFolder = std::string(NONET_SOURCE_DIR) + "/skills";
-  Agent agent(config);
+  AgentSettings settings;
+  settings.unum = 5;
+  settings.team = "Reds";
+  settings.skillFolder = std::string(NONET_SOURCE_DIR) + "/skills";
+  Agent agent(settings);
   protocol::Percept percept;
   protocol::parsePercept(
       "(time (now 7.50))(GS (unum 5) (team right) (sl 0) (sr 0) (t 3.25) (pm PlayOn))(GYR (n torso) (rt 0.00 "

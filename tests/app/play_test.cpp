@@ -24,17 +24,17 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kAccepted = "(unum 3) (team left) ";
 
-PlayOptions optionsFor(const FakeServer& server) {
-  PlayOptions options;
-  options.port = server.port();
-  options.wait = 1.0;
-  options.quiet = true;
+PlaySettings optionsFor(const FakeServer& server) {
+  PlaySettings settings;
+  settings.port = server.port();
+  settings.wait = 1.0;
+  settings.quiet = true;
   agent::AgentChoice choice;
   choice.unum = 3;
   choice.team = "Test";
   choice.robotType = 2;
-  options.session.agent = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
-  return options;
+  settings.session.agent = agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
+  return settings;
 }
 
 std::string temporaryFile(const std::string& name) {
@@ -44,7 +44,7 @@ std::string temporaryFile(const std::string& name) {
 /// Runs play() beside the test and gives its exit code.
 class Player {
  public:
-  explicit Player(const PlayOptions& options) : thread_([this, options] { exit_ = play(options); }) {}
+  explicit Player(const PlaySettings& settings) : thread_([this, settings] { exit_ = play(settings); }) {}
   ~Player() {
     if (thread_.joinable()) thread_.join();
   }
@@ -65,29 +65,29 @@ int countOf(const std::string& text, const std::string& part) {
 }
 
 TEST(Play, GivesUpWithoutServer) {
-  PlayOptions options;
+  PlaySettings settings;
   {
     const FakeServer gone;
-    options = optionsFor(gone);
+    settings = optionsFor(gone);
   }
-  options.wait = 0.5;
+  settings.wait = 0.5;
   const auto start = Clock::now();
-  EXPECT_EQ(play(options), PlayExit::NoServer);
+  EXPECT_EQ(play(settings), PlayExit::NoServer);
   EXPECT_LT(Clock::now() - start, std::chrono::seconds(2));
 }
 
 TEST(Play, WaitsForALateServer) {
   asio::io_context io;
-  PlayOptions options;
+  PlaySettings settings;
   {
     const FakeServer first;
-    options = optionsFor(first);
+    settings = optionsFor(first);
   }
-  options.wait = 5.0;
-  Player player(options);
+  settings.wait = 5.0;
+  Player player(settings);
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
   asio::ip::tcp::acceptor acceptor(
-      io, {asio::ip::address_v4::loopback(), static_cast<asio::ip::port_type>(options.port)});
+      io, {asio::ip::address_v4::loopback(), static_cast<asio::ip::port_type>(settings.port)});
   acceptor.accept().close();
   EXPECT_EQ(player.wait(), PlayExit::ServerGone);
 }
@@ -118,11 +118,11 @@ TEST(Play, IntroducesItselfAndAnswersEachMessageOnce) {
 
 TEST(Play, SendsNoSynIfToldSo) {
   FakeServer server;
-  PlayOptions options = optionsFor(server);
-  options.session.sync = false;
-  options.rescue = false;
-  options.wait = 5.0;
-  Player player(options);
+  PlaySettings settings = optionsFor(server);
+  settings.session.sync = false;
+  settings.rescue = false;
+  settings.wait = 5.0;
+  Player player(settings);
   server.accept();
   EXPECT_EQ(server.receive(), "(scene rsg/agent/nao/nao_hetero.rsg 2)");
   EXPECT_EQ(server.receive(1.8), std::nullopt);
@@ -134,9 +134,9 @@ TEST(Play, SendsNoSynIfToldSo) {
 
 TEST(Play, FreesAHangingServer) {
   FakeServer server;
-  PlayOptions options = optionsFor(server);
-  options.wait = 30.0;
-  Player player(options);
+  PlaySettings settings = optionsFor(server);
+  settings.wait = 30.0;
+  Player player(settings);
   server.accept();
   EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
   int syns = 0;
@@ -193,10 +193,10 @@ TEST(Play, SurvivesGarbageInMessages) {
 TEST(Play, AnswersOnlyTheNewestAndReplaysTheSame) {
   const std::string log = temporaryFile("nonet_play_newest");
   FakeServer server;
-  PlayOptions options = optionsFor(server);
-  options.record = log;
-  options.recordHeader = agent::logHeader(options.session.agent, "test");
-  Player player(options);
+  PlaySettings settings = optionsFor(server);
+  settings.record = log;
+  settings.recordHeader = agent::logHeader(settings.session.agent, "test");
+  Player player(settings);
   server.accept();
   server.receive();
   server.send(standingMessage(1.0));
@@ -226,10 +226,10 @@ TEST(Play, AnswersOnlyTheNewestAndReplaysTheSame) {
 TEST(Play, EndsCleanlyOnSigterm) {
   const std::string log = temporaryFile("nonet_play_sigterm");
   FakeServer server;
-  PlayOptions options = optionsFor(server);
-  options.record = log;
-  options.recordHeader = agent::logHeader(options.session.agent, "test");
-  Player player(options);
+  PlaySettings settings = optionsFor(server);
+  settings.record = log;
+  settings.recordHeader = agent::logHeader(settings.session.agent, "test");
+  Player player(settings);
   server.accept();
   server.receive();
   server.send(standingMessage(1.0));

@@ -66,9 +66,9 @@ TEST(Roboviz, PacketsKeepTheOrderAndTheLimit) {
 }
 
 TEST(Roboviz, APictureArrivesAndNobodyNeedsToListen) {
-  agent::AgentConfig config;
-  config.skillFolder = std::string(NONET_SOURCE_DIR) + "/skills";
-  agent::Agent agent(config);
+  agent::AgentSettings settings;
+  settings.skillFolder = std::string(NONET_SOURCE_DIR) + "/skills";
+  agent::Agent agent(settings);
   protocol::Percept percept;
   protocol::parsePercept("(time (now 1.00))(GS (unum 7) (team left) (sl 0) (sr 0) (t 0.00) (pm PlayOn))",
                          percept);

@@ -14,7 +14,7 @@ class Goalkeeping : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, Goalkeeping, testing::Range(0, model::kRobotTypeCount));
 
 TEST_P(Goalkeeping, DivesReachToBothSidesAndTheRobotRises) {
-  const TrialSetup setup = agentTrialSetup(GetParam());
+  const TrialSettings setup = agentTrialSettings(GetParam());
   for (const model::Side side : {model::Side::Left, model::Side::Right}) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const Dive dive = diveAndRise(setup, "dive", side, seed);
@@ -28,7 +28,7 @@ TEST_P(Goalkeeping, DivesReachToBothSidesAndTheRobotRises) {
 }
 
 TEST_P(Goalkeeping, TheBlockBarsTheGroundBesideTheRobot) {
-  const TrialSetup setup = agentTrialSetup(GetParam());
+  const TrialSettings setup = agentTrialSettings(GetParam());
   for (const model::Side side : {model::Side::Left, model::Side::Right}) {
     const Dive block = diveAndRise(setup, "block", side, 1);
     // After a second, of the places along the ground up to 0.25 m aside.

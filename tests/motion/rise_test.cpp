@@ -19,7 +19,7 @@ class Rising : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, Rising, testing::Range(0, model::kRobotTypeCount));
 
 TEST_P(Rising, StandsUpFromEverySide) {
-  const TrialSetup setup = agentTrialSetup(GetParam());
+  const TrialSettings setup = agentTrialSettings(GetParam());
   for (const FallKind kind : {FallKind::Front, FallKind::Back, FallKind::Side}) {
     int fell = 0;
     // Throws that the robot survives on its feet do not count.
@@ -37,7 +37,7 @@ TEST_P(Rising, StandsUpFromEverySide) {
 
 // The second and third attempts, each by itself from lying still.
 TEST(RiseSkills, EveryVariantGetsUp) {
-  const TrialSetup setup = agentTrialSetup(0);
+  const TrialSettings setup = agentTrialSettings(0);
   const motion::SkillLibrary library(setup.skillFolder, setup.motion.skills);
   const model::JointArray stand =
       motion::WalkEngine::standAngles(model::robotModel(0), setup.motion.sets.goToTarget);
@@ -67,7 +67,7 @@ TEST(RiseSkills, EveryVariantGetsUp) {
 
 /// A robot that fell, as motion sees it.
 struct Fallen {
-  explicit Fallen(const TrialSetup& setup)
+  explicit Fallen(const TrialSettings& setup)
       : model(model::robotModel(0)),
         library(setup.skillFolder, setup.motion.skills),
         stand(motion::WalkEngine::standAngles(model, setup.motion.sets.positioning)),
@@ -91,7 +91,7 @@ struct Fallen {
 };
 
 TEST(FallControl, BeginsAnewWhenTheRobotComesToLieOnAnotherSide) {
-  const TrialSetup setup = agentTrialSetup(0);
+  const TrialSettings setup = agentTrialSettings(0);
   for (const double turnsAt : {0.1, 0.3, 1.0}) {
     Fallen turned(setup);  // falls on its back and rolls to the right
     Fallen onBack(setup);  // stays on its back
@@ -112,7 +112,7 @@ TEST(FallControl, BeginsAnewWhenTheRobotComesToLieOnAnotherSide) {
 }
 
 TEST(RiseReport, TheSameSeedGivesTheSameFall) {
-  const TrialSetup setup = agentTrialSetup(0);
+  const TrialSettings setup = agentTrialSettings(0);
   const Rise one = fallAndRise(setup, FallKind::Front, 5);
   const Rise two = fallAndRise(setup, FallKind::Front, 5);
   EXPECT_EQ(one.time, two.time);
@@ -122,7 +122,7 @@ TEST(RiseReport, TheSameSeedGivesTheSameFall) {
 // The protection begins before the torso meets the ground.
 TEST(Falling, IsNoticedBeforeImpact) {
   for (const double direction : {1.0, -1.0}) {
-    RobotTrial trial(agentTrialSetup(0));
+    RobotTrial trial(agentTrialSettings(0));
     trial.settle(Pose2());
     motion::JointTargets lean;
     lean.angles = trial.belief().body.joints;

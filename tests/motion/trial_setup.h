@@ -6,14 +6,14 @@
 
 namespace nonet::lab {
 
-inline agent::AgentConfig agentOfType(int type) {
+inline agent::AgentSettings agentOfType(int type) {
   agent::AgentChoice choice;
   choice.robotType = type;
-  return agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  return agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
 }
 
-inline TrialSetup agentTrialSetup(int type) {
-  return trialSetup(agentOfType(type));
+inline TrialSettings agentTrialSettings(int type) {
+  return trialSettings(agentOfType(type));
 }
 
 }  // namespace nonet::lab

@@ -28,8 +28,8 @@ double quantile(std::vector<double> sample, double share) {
 /// A robot that stands upright with its head sweeping; the localization under test sees what it would see.
 class StandingRobot {
  public:
-  StandingRobot(std::uint64_t seed, const test::SimulatedField& field, LocalizationOptions options = {})
-      : random_(seed), eyes_(random_.next(), field), localization_(random_.next(), options), field_(field) {
+  StandingRobot(std::uint64_t seed, const test::SimulatedField& field, LocalizationSettings settings = {})
+      : random_(seed), eyes_(random_.next(), field), localization_(random_.next(), settings), field_(field) {
     body_.torsoHeight = body_.p_GR.z() = 0.385;
     body_.footContact = {true, true};
     body_.accelerometer = {0.0, 0.0, kGravity};
@@ -132,9 +132,9 @@ TEST(Localization, FindsItselfAtTheStart) {
   for (const bool useFilter : {true, false}) {
     int found = 0;
     for (int i = 0; i < 200; ++i) {
-      LocalizationOptions options;
-      options.useFilter = useFilter;
-      StandingRobot robot(static_cast<std::uint64_t>(i), {}, options);
+      LocalizationSettings settings;
+      settings.useFilter = useFilter;
+      StandingRobot robot(static_cast<std::uint64_t>(i), {}, settings);
       for (int k = 0; k < 16; ++k) robot.frame();
       found += robot.positionError() < 0.2 ? 1 : 0;
     }

@@ -123,9 +123,9 @@ TEST(PoseFit, FindsTheOptimumThatCeresFinds) {
     const Case c = randomCase(random, 0.05, 0.02);
     PoseFit fit;
     PoseBelief belief = c.prior;
-    FitOptions options;
-    options.iterations = 8;
-    const FitReport report = fit.update(belief, c.X_RC, c.frame, map, options);
+    FitSettings settings;
+    settings.iterations = 8;
+    const FitReport report = fit.update(belief, c.X_RC, c.frame, map, settings);
     if (!report.ok) continue;
     std::vector<int> matches;
     int rows = kBeliefStates + 3 * static_cast<int>(c.frame.landmarks().size());

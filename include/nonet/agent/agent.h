@@ -19,7 +19,7 @@
 
 namespace nonet::agent {
 
-struct AgentConfig {
+struct AgentSettings {
   int unum = 0;  // 1..11, 0: the server chooses
   std::string team = "Nonet";
   int robotType = 0;  // 0..4
@@ -32,11 +32,11 @@ struct AgentConfig {
 };
 
 /// The part of it below the team.
-RobotConfig robotConfig(const AgentConfig& config);
+RobotSettings robotSettings(const AgentSettings& settings);
 
 class Agent {
  public:
-  explicit Agent(const AgentConfig& config);
+  explicit Agent(const AgentSettings& settings);
   ~Agent();
 
   /// What to send before the first message arrives: the scene effector.
@@ -55,7 +55,7 @@ class Agent {
   /// What it decided in the last step, and why. With recordCandidates also what it weighed.
   const team::Action& action() const;
   void recordCandidates(bool on);
-  const AgentConfig& config() const;
+  const AgentSettings& settings() const;
 
  private:
   struct Stages;

@@ -29,15 +29,15 @@ struct AgentChoice {
 /// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml, then the given files,
 /// then the assignments. `dataFolder` holds params/ and skills/. Throws config::ParameterError, also if the
 /// file of the type or all skills are missing.
-AgentConfig makeAgentConfig(const AgentChoice& choice, const std::string& dataFolder);
+AgentSettings makeAgentSettings(const AgentChoice& choice, const std::string& dataFolder);
 
 /// What the header of a log must hold so that agentFromLog() builds the same agent.
-protocol::LogHeader logHeader(const AgentConfig& config, const std::string& version);
+protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& version);
 
 /// The same agent as the one that wrote the header of the log `path`. The start pose stands in a comment of
 /// its own. Throws protocol::LogError or config::ParameterError that name `path`.
-AgentConfig agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder,
-                         const std::string& path);
+AgentSettings agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder,
+                           const std::string& path);
 std::string startComment(const Pose2& start);
 std::optional<Pose2> startFromComment(std::string_view comment);
 

@@ -17,7 +17,7 @@
 
 namespace nonet::agent {
 
-struct RobotConfig {
+struct RobotSettings {
   int robotType = 0;  // 0..4
   std::string team = "Nonet";
   std::uint64_t seed = 1;
@@ -29,7 +29,7 @@ struct RobotConfig {
 class Robot {
  public:
   /// Errors in skill files name file, line and column.
-  explicit Robot(const RobotConfig& config);
+  explicit Robot(const RobotSettings& settings);
   ~Robot();
 
   /// Absorbs one message. What the motion did in the last cycle goes in with it. The reference stays valid

@@ -16,8 +16,8 @@
 
 namespace nonet::agent {
 
-struct SessionOptions {
-  AgentConfig agent;
+struct SessionSettings {
+  AgentSettings agent;
   bool sync = true;  // end every answer with (syn); a server that runs in real time ignores it
 };
 
@@ -38,7 +38,7 @@ class Session {
     Refused,      // it has not, after kRefusalPatience messages
   };
 
-  explicit Session(const SessionOptions& options);
+  explicit Session(const SessionSettings& settings);
   ~Session();
 
   /// The first text of a connection. May be called again if the connection is made anew before any message
@@ -66,7 +66,7 @@ class Session {
   void keepOnce(const protocol::Effectors& older);
   std::string_view write();
 
-  SessionOptions options_;
+  SessionSettings settings_;
   std::unique_ptr<Agent> agent_;
   protocol::Percept percept_;
   protocol::Effectors outgoing_;

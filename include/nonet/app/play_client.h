@@ -18,10 +18,10 @@ enum class PlayExit : int {
   Refused = 4,  // the server did not take us into a team
 };
 
-struct PlayOptions {
+struct PlaySettings {
   std::string host = "127.0.0.1";
   int port = 3100;
-  agent::SessionOptions session;
+  agent::SessionSettings session;
   std::string record;  // log file; empty: none
   protocol::LogHeader recordHeader;
   std::string trace;       // file for the decision trace; empty: none
@@ -36,6 +36,6 @@ struct PlayOptions {
 
 /// Plays until the server goes, refuses, or a signal comes. Says what happens on standard output, errors on
 /// standard error.
-PlayExit play(const PlayOptions& options);
+PlayExit play(const PlaySettings& settings);
 
 }  // namespace nonet::app

@@ -14,9 +14,9 @@
 
 namespace nonet::app {
 
-/// Plays where `choice.place` says, in processes. `folder`: of the series; what agents say is kept there, in
-/// games/, if a game goes wrong. Throws std::runtime_error if an executable is none of Nonet.
-lab::PlayGame gamesOfProcesses(const lab::SeriesChoice& choice, const std::string& folder,
+/// Plays where `settings.place` says, in processes. `folder`: of the series; what agents say is kept there,
+/// in games/, if a game goes wrong. Throws std::runtime_error if an executable is none of Nonet.
+lab::PlayGame gamesOfProcesses(const lab::SeriesSettings& settings, const std::string& folder,
                                const std::string& dataFolder);
 
 /// A place "HOST:PORT:MONITORPORT"; nothing for "process", "tcp" and "realtime". Throws std::runtime_error if
@@ -33,14 +33,14 @@ class SideAgents {
  public:
   /// The programs of both sides; they are asked once what they understand.
   struct Programs {
-    explicit Programs(const lab::SeriesChoice& choice);
+    explicit Programs(const lab::SeriesSettings& settings);
     std::optional<PlayProgram> a;
     std::optional<PlayProgram> b;
   };
 
   /// `logs`: a folder of this game's own.
-  SideAgents(const lab::SeriesChoice& choice, const lab::SeriesGame& game, const Programs& programs,
-             const lab::MatchChoice& match, const std::string& dataFolder, const std::string& logs);
+  SideAgents(const lab::SeriesSettings& settings, const lab::SeriesGame& game, const Programs& programs,
+             const lab::MatchSettings& match, const std::string& dataFolder, const std::string& logs);
 
   /// Starts one team of the match.
   void start(bool rightTeam, const ServerPlace& server, bool lockStep);
@@ -57,13 +57,13 @@ class SideAgents {
     std::string report;
   };
 
-  void startForeign(const lab::SideChoice& side, bool rightTeam, const ServerPlace& server);
+  void startForeign(const lab::SideSettings& side, bool rightTeam, const ServerPlace& server);
   bool crashed(std::size_t i) const;
 
-  const lab::SeriesChoice& choice_;
+  const lab::SeriesSettings& settings_;
   lab::SeriesGame game_;
   const Programs& programs_;
-  const lab::MatchChoice& match_;
+  const lab::MatchSettings& match_;
   std::string dataFolder_;
   std::string logs_;
   std::vector<Agent> agents_;  // beside processes_.processes()
@@ -72,8 +72,8 @@ class SideAgents {
 
 /// One game on a server that is not in this process; see external_game.cpp. Gives the teams the names that
 /// the server knows already.
-lab::GameRecord playOnServer(const lab::SeriesChoice& choice, const lab::SeriesGame& game,
-                             lab::MatchChoice& match, SideAgents& agents,
+lab::GameRecord playOnServer(const lab::SeriesSettings& settings, const lab::SeriesGame& game,
+                             lab::MatchSettings& match, SideAgents& agents,
                              const std::function<bool(double)>& goOn, const std::string& logs);
 
 /// Puts values in the place of "{key}".

@@ -16,9 +16,9 @@ struct SeriesRun {
 };
 
 /// Begins or resumes the series in the folder and plays what is open, `jobs` games at a time (0: one per
-/// core; on a server of others always one). Sets date, version and fingerprints of the choice. `title` begins
-/// the progress line. Throws std::runtime_error.
-SeriesRun playSeries(lab::SeriesChoice choice, const std::string& folder, int jobs,
+/// core; on a server of others always one). Sets date, version and fingerprints of the settings. `title`
+/// begins the progress line. Throws std::runtime_error.
+SeriesRun playSeries(lab::SeriesSettings settings, const std::string& folder, int jobs,
                      const std::string& dataFolder, Console& console, const std::string& title);
 
 /// What the user typed, for the reader of a result.

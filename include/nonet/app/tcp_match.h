@@ -9,7 +9,7 @@
 namespace nonet::app {
 
 struct TcpMatchSettings {
-  lab::MatchChoice match;
+  lab::MatchSettings match;
   bool realTime = false;   // otherwise lock-step
   std::uint16_t port = 0;  // 0: any free one
   std::uint16_t monitorPort = 0;

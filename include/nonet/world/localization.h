@@ -21,7 +21,7 @@
 
 namespace nonet::world {
 
-struct LocalizationOptions {
+struct LocalizationSettings {
   bool useFilter = true;  // false: the fit alone, started from landmark geometry
   bool useFit = true;     // false: the particle filter alone
   bool useLines = true;
@@ -29,7 +29,7 @@ struct LocalizationOptions {
 
 class Localization {
  public:
-  Localization(std::uint64_t seed, const LocalizationOptions& options = {});
+  Localization(std::uint64_t seed, const LocalizationSettings& settings = {});
 
   /// Moves the belief with the body, then corrects it with what was seen (nullptr: nothing in this cycle).
   void update(const BodyState& body, const protocol::Vision* vision);
@@ -72,7 +72,7 @@ class Localization {
 
   static constexpr int kPatience = 10;  // vision frames that may fail before the belief is given up
 
-  LocalizationOptions options_;
+  LocalizationSettings settings_;
   FieldMap large_;
   FieldMap small_;
   const FieldMap* map_;

@@ -38,7 +38,7 @@ struct PoseBelief {
   Pose2 ground() const;  // position and heading of the torso
 };
 
-struct FitOptions {
+struct FitSettings {
   bool useLandmarks = true;
   bool useLines = true;
   int iterations = 3;
@@ -60,7 +60,7 @@ class PoseFit {
   /// Updates `belief` in place. Lines are matched to the map first with the prior belief and again with the
   /// belief after the landmarks.
   FitReport update(PoseBelief& belief, const Pose3& X_RC, const VisionFrame& frame, const FieldMap& map,
-                   const FitOptions& options = {});
+                   const FitSettings& settings = {});
 
   /// Map line that the i-th observed line was matched to in the last update, or -1.
   int match(std::size_t i) const { return matches_[i]; }

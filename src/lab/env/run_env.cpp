@@ -22,7 +22,7 @@ constexpr std::size_t kBody = 14;   // numbers beside the joints' angles and spe
 class RunEnv final : public Env {
  public:
   explicit RunEnv(const EnvSettings& settings)
-      : setup_(trialSetup(settings.agent)), model_(model::robotModel(settings.agent.robotType)) {
+      : setup_(trialSettings(settings.agent)), model_(model::robotModel(settings.agent.robotType)) {
     setup_.physics.solver =
         settings.server.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
     stand_ =
@@ -81,7 +81,7 @@ class RunEnv final : public Env {
   }
 
  private:
-  TrialSetup setup_;
+  TrialSettings setup_;
   const model::RobotModel& model_;
   model::JointArray stand_{};
   std::unique_ptr<RobotTrial> trial_;

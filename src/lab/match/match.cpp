@@ -42,13 +42,13 @@ void enter(std::vector<InProcessPlayer>& players, sim::Simulation& simulation, s
 
 }  // namespace
 
-std::string matchTitle(const MatchChoice& choice) {
+std::string matchTitle(const MatchSettings& choice) {
   if (choice.right.players == 0)
     return fmt::format("{} alone, {} players", choice.left.name, choice.left.players);
   return fmt::format("{} against {}, {} a side", choice.left.name, choice.right.name, choice.left.players);
 }
 
-sim::Settings matchSettings(const MatchChoice& choice) {
+sim::Settings matchSettings(const MatchSettings& choice) {
   sim::Settings settings = choice.settings;
   settings.ruleHalfTime = choice.minutes * 60.0 / 2.0;
   settings.automaticKickOff = true;
@@ -58,8 +58,8 @@ sim::Settings matchSettings(const MatchChoice& choice) {
   return settings;
 }
 
-agent::AgentChoice agentChoice(const MatchChoice& choice, bool rightTeam, int unum) {
-  const TeamChoice& team = rightTeam ? choice.right : choice.left;
+agent::AgentChoice agentChoice(const MatchSettings& choice, bool rightTeam, int unum) {
+  const TeamSettings& team = rightTeam ? choice.right : choice.left;
   agent::AgentChoice agent;
   agent.unum = unum;
   agent.team = team.name;
@@ -70,12 +70,12 @@ agent::AgentChoice agentChoice(const MatchChoice& choice, bool rightTeam, int un
   return agent;
 }
 
-MatchWatcher::MatchWatcher(const MatchChoice& choice) {
+MatchWatcher::MatchWatcher(const MatchSettings& choice) {
   result_.teamLeft = choice.left.name;
   result_.teamRight = choice.right.name;
   result_.seed = choice.seed;
   for (const bool rightTeam : {false, true}) {
-    const TeamChoice& team = rightTeam ? choice.right : choice.left;
+    const TeamSettings& team = rightTeam ? choice.right : choice.left;
     for (int unum = 1; unum <= team.players; ++unum) {
       PlayerRecord player;
       player.rightTeam = rightTeam;
@@ -147,7 +147,7 @@ std::string MatchWatcher::progress(const sim::Simulation& simulation) const {
                      result_.falls(true));
 }
 
-MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFolder, int threads,
+MatchResult playInProcess(const MatchSettings& choice, const std::string& dataFolder, int threads,
                           const MatchObservers& observers) {
   sim::Settings settings = matchSettings(choice);
   settings.threads = threads;
@@ -159,7 +159,7 @@ MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFold
     const agent::AgentChoice agent = agentChoice(choice, record.rightTeam, record.unum);
     const std::string& own = record.rightTeam ? choice.right.dataFolder : choice.left.dataFolder;
     players.emplace_back().agent =
-        std::make_unique<agent::Agent>(agent::makeAgentConfig(agent, own.empty() ? dataFolder : own));
+        std::make_unique<agent::Agent>(agent::makeAgentSettings(agent, own.empty() ? dataFolder : own));
   }
   enter(players, simulation, choice.seed);
   std::optional<sim::MonitorLog> monitorLog;

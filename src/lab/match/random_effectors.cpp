@@ -54,7 +54,7 @@ sim::InvariantLimits limits(bool beams) {
 
 class RandomTeams {
  public:
-  explicit RandomTeams(const RandomEffectorsChoice& choice)
+  explicit RandomTeams(const RandomEffectorsSettings& choice)
       : random_(choice.seed),
         simulation_(settings(choice), choice.seed),
         beams_(choice.beams),
@@ -90,7 +90,7 @@ class RandomTeams {
   const RandomEffectorsResult& soFar() const { return result_; }
 
  private:
-  static sim::Settings settings(const RandomEffectorsChoice& choice) {
+  static sim::Settings settings(const RandomEffectorsSettings& choice) {
     sim::Settings settings;
     settings.automaticKickOff = true;
     settings.ruleHalfTime = 60.0;
@@ -194,7 +194,7 @@ class RandomTeams {
 
 }  // namespace
 
-RandomEffectorsResult playRandomEffectors(const RandomEffectorsChoice& choice,
+RandomEffectorsResult playRandomEffectors(const RandomEffectorsSettings& choice,
                                           const std::function<bool(const RandomEffectorsResult&)>& goOn) {
   RandomTeams teams(choice);
   const long cycles = std::lround(choice.minutes * 60.0 / kCycleTime);

@@ -85,31 +85,32 @@ GameRecord gameRecord(const SeriesGame& game, int scoreLeft, int scoreRight, dou
   return record;
 }
 
-Series::Series(const std::string& folder, const SeriesChoice& choice) : folder_(folder), choice_(choice) {
+Series::Series(const std::string& folder, const SeriesSettings& settings)
+    : folder_(folder), settings_(settings) {
   fs::create_directories(folder);
   lock_ = lockFolder(folder);
   if (fs::exists(path(kChoice))) {
     std::ifstream file(path(kChoice));
-    const auto before = SeriesChoice::fromJson(ordered_json::parse(file));
-    const bool same = before.sameGames(choice);
+    const auto before = SeriesSettings::fromJson(ordered_json::parse(file));
+    const bool same = before.sameGames(settings);
     if (!same && fs::exists(path(kMatches)))
       throw std::runtime_error(fmt::format(
           "{} holds a series of other games (see series.json; the program or a side's files may have "
           "changed): choose another folder with --out",
           folder));
-    if (same) choice_ = before;
-    choice_.pairs = choice.pairs;
-    choice_.sequential = choice.sequential;
-    choice_.monitorLogs = choice.monitorLogs;
+    if (same) settings_ = before;
+    settings_.pairs = settings.pairs;
+    settings_.sequential = settings.sequential;
+    settings_.monitorLogs = settings.monitorLogs;
   }
-  writeAtomically(path(kChoice), choice_.toJson().dump(1) + "\n");
+  writeAtomically(path(kChoice), settings_.toJson().dump(1) + "\n");
   readLines();
 }
 
 void Series::readLines() {
   const std::map<int, ordered_json> times = readWholeLines(path(kTimes));
   for (const auto& [index, line] : readWholeLines(path(kMatches))) {
-    GameRecord record{gameOf(choice_, index), line, {}};
+    GameRecord record{gameOf(settings_, index), line, {}};
     if (record.game.seed != line.at("seed").get<std::uint64_t>())
       throw std::runtime_error(fmt::format("{}: a game has another seed than the series", path(kMatches)));
     const auto time = times.find(index);
@@ -120,8 +121,8 @@ void Series::readLines() {
 
 std::vector<int> Series::open() const {
   std::vector<int> games;
-  if (choice_.sequential && result().verdict != Verdict::Open) return games;
-  for (int index = 0; index < 2 * choice_.pairs; ++index) {
+  if (settings_.sequential && result().verdict != Verdict::Open) return games;
+  for (int index = 0; index < 2 * settings_.pairs; ++index) {
     if (!has(index)) games.push_back(index);
   }
   return games;
@@ -138,9 +139,9 @@ void Series::add(const GameRecord& record) {
 
 SeriesResult Series::result() const {
   SeriesResult result;
-  SequentialTest test(choice_.sequential.value_or(SequentialBounds{0.0, 1.0}), choice_.resolution());
-  for (int pair = 0; pair < choice_.pairs && has(2 * pair) && has(2 * pair + 1); ++pair) {
-    if (choice_.sequential && test.verdict() != Verdict::Open) break;
+  SequentialTest test(settings_.sequential.value_or(SequentialBounds{0.0, 1.0}), settings_.resolution());
+  for (int pair = 0; pair < settings_.pairs && has(2 * pair) && has(2 * pair + 1); ++pair) {
+    if (settings_.sequential && test.verdict() != Verdict::Open) break;
     int difference = 0;
     double seconds = 0.0;
     for (const int index : {2 * pair, 2 * pair + 1}) {
@@ -163,7 +164,7 @@ SeriesResult Series::result() const {
     test.add(result.pairs.back());
   }
   result.difference = summarizePairs(result.pairs);
-  if (choice_.sequential) {
+  if (settings_.sequential) {
     result.verdict = test.verdict();
     result.logLikelihoodRatio = test.logLikelihoodRatio();
   }
@@ -183,7 +184,7 @@ SeriesResult Series::finish() {
   }
   writeAtomically(path(kMatches), lines);
   writeAtomically(path(kTimes), times);
-  writeAtomically(path(kResult), end.toJson(choice_).dump(1) + "\n");
+  writeAtomically(path(kResult), end.toJson(settings_).dump(1) + "\n");
   return end;
 }
 

@@ -20,8 +20,8 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02} min", whole / 60, whole % 60);
 }
 
-std::string verdictText(const SeriesResult& result, const SeriesChoice& choice) {
-  const SequentialBounds& bounds = *choice.sequential;
+std::string verdictText(const SeriesResult& result, const SeriesSettings& settings) {
+  const SequentialBounds& bounds = *settings.sequential;
   std::string text = fmt::format("sequential test of {:+.2f} against {:+.2f}: ", bounds.low, bounds.high);
   if (result.verdict == Verdict::Open)
     text += "open";
@@ -33,16 +33,16 @@ std::string verdictText(const SeriesResult& result, const SeriesChoice& choice) 
 
 }  // namespace
 
-ordered_json SeriesResult::toJson(const SeriesChoice& choice) const {
-  ordered_json json = {{"a", choice.a.describe()},
-                       {"b", choice.b.describe()},
-                       {"name_a", choice.a.name},
-                       {"name_b", choice.b.name},
-                       {"place", choice.place},
-                       {"command_line", choice.commandLine},
-                       {"date", choice.date},
-                       {"version", choice.version},
-                       {"minutes", choice.minutes},
+ordered_json SeriesResult::toJson(const SeriesSettings& settings) const {
+  ordered_json json = {{"a", settings.a.describe()},
+                       {"b", settings.b.describe()},
+                       {"name_a", settings.a.name},
+                       {"name_b", settings.b.name},
+                       {"place", settings.place},
+                       {"command_line", settings.commandLine},
+                       {"date", settings.date},
+                       {"version", settings.version},
+                       {"minutes", settings.minutes},
                        {"games", games},
                        {"wins", wins},
                        {"ties", ties},
@@ -55,39 +55,39 @@ ordered_json SeriesResult::toJson(const SeriesChoice& choice) const {
                        {"standard_error", difference.standardError},
                        {"interval_95", {difference.low, difference.high}},
                        {"pairs", pairs}};
-  if (choice.sequential) {
-    json["sprt"] = {{"low", choice.sequential->low},
-                    {"high", choice.sequential->high},
+  if (settings.sequential) {
+    json["sprt"] = {{"low", settings.sequential->low},
+                    {"high", settings.sequential->high},
                     {"verdict", verdictName(verdict)},
                     {"log_ratio", logLikelihoodRatio}};
   }
   return json;
 }
 
-std::string SeriesResult::toText(const SeriesChoice& choice) const {
-  std::string text = fmt::format("\nA: {}\nB: {}\n", choice.a.describe(), choice.b.describe());
+std::string SeriesResult::toText(const SeriesSettings& settings) const {
+  std::string text = fmt::format("\nA: {}\nB: {}\n", settings.a.describe(), settings.b.describe());
   text += fmt::format("{} games of {:g} minutes ({} pairs): A won {}, tied {}, lost {}; goals {} : {}\n",
-                      games, choice.minutes, pairs.size(), wins, ties, losses, goalsA, goalsB);
+                      games, settings.minutes, pairs.size(), wins, ties, losses, goalsA, goalsB);
   text +=
       fmt::format("goal difference per ten minutes, A minus B: {:+.3f} (standard error {:.3f}), 95 % {}\n",
                   difference.mean, difference.standardError, interval(difference));
   if (crashedA + crashedB + goneA + goneB > 0)
     text += fmt::format("agents that crashed {} : {}, players not there at the end of a game {} : {}\n",
                         crashedA, crashedB, goneA, goneB);
-  if (choice.sequential) text += verdictText(*this, choice) + "\n";
+  if (settings.sequential) text += verdictText(*this, settings) + "\n";
   return text;
 }
 
-std::string SeriesProgress::line(const SeriesChoice& choice) const {
+std::string SeriesProgress::line(const SeriesSettings& settings) const {
   std::string text = fmt::format("{} of {} games  +{} ={} -{}  goals {} : {}", gamesPlayed, gamesAtMost,
                                  result.wins, result.ties, result.losses, result.goalsA, result.goalsB);
   if (!result.pairs.empty())
     text += fmt::format("  difference {:+.2f} {}", result.difference.mean, interval(result.difference));
-  if (choice.sequential && !result.pairs.empty())
+  if (settings.sequential && !result.pairs.empty())
     text +=
         fmt::format("  log ratio {:+.2f} of +-{:.2f}", result.logLikelihoodRatio, SequentialTest::bound());
   if (secondsLeft >= 0.0)
-    text += fmt::format("  {}{} left", choice.sequential ? "at most " : "", duration(secondsLeft));
+    text += fmt::format("  {}{} left", settings.sequential ? "at most " : "", duration(secondsLeft));
   return text;
 }
 

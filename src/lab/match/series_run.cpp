@@ -82,16 +82,16 @@ class Run {
 
   void playOne(std::size_t i) {
     try {
-      const GameRecord record = play_(gameOf(series_.choice(), games_[i]), [this, i](double gameTime) {
+      const GameRecord record = play_(gameOf(series_.settings(), games_[i]), [this, i](double gameTime) {
         const std::lock_guard lock(mutex_);
         played_[i] = gameTime;
         return !stop_;
       });
       const std::lock_guard lock(mutex_);
       if (stop_) return;
-      played_[i] = 60.0 * series_.choice().minutes;
+      played_[i] = 60.0 * series_.settings().minutes;
       series_.add(record);
-      if (series_.choice().sequential && series_.result().verdict != Verdict::Open) stop_ = true;
+      if (series_.settings().sequential && series_.result().verdict != Verdict::Open) stop_ = true;
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!error_ && !stop_) error_ = std::current_exception();
@@ -102,12 +102,12 @@ class Run {
   SeriesProgress progress() const {
     SeriesProgress now;
     now.gamesPlayed = series_.played();
-    now.gamesAtMost = 2 * series_.choice().pairs;
+    now.gamesAtMost = 2 * series_.settings().pairs;
     now.running = running_;
     now.result = series_.result();
     double done = 0.0;
     for (const double seconds : played_) done += seconds;
-    const double all = 60.0 * series_.choice().minutes * static_cast<double>(games_.size());
+    const double all = 60.0 * series_.settings().minutes * static_cast<double>(games_.size());
     const double wall = std::chrono::duration<double>(Clock::now() - start_).count();
     now.secondsLeft = done > 0.0 ? wall * (all - done) / done : -1.0;
     return now;
@@ -139,13 +139,13 @@ bool playSeries(Series& series, int jobs, const PlayGame& play,
   return series.open().empty();
 }
 
-PlayGame inProcessGames(const SeriesChoice& choice, const std::string& overlayFolder,
+PlayGame inProcessGames(const SeriesSettings& settings, const std::string& overlayFolder,
                         const std::string& dataFolder) {
   return
-      [choice, overlayFolder, dataFolder](const SeriesGame& game, const std::function<bool(double)>& goOn) {
+      [settings, overlayFolder, dataFolder](const SeriesGame& game, const std::function<bool(double)>& goOn) {
         constexpr long kCyclesBetweenReports = 50;
         const double before = processorTime();
-        const MatchChoice match = matchOf(choice, game, overlayFolder);
+        const MatchSettings match = matchOf(settings, game, overlayFolder);
         SimulationFrames frames;
         MatchStatistics statistics(
             {match.settings.fieldLength, match.settings.fieldWidth, match.settings.goalWidth});

@@ -26,7 +26,7 @@ std::string verdict(const TableSettings& table, const SeriesResult& result) {
 
 std::size_t widest(const TableSettings& table) {
   std::size_t width = 8;
-  for (const SideChoice& side : table.sides) width = std::max(width, side.name.size());
+  for (const SideSettings& side : table.sides) width = std::max(width, side.name.size());
   return width;
 }
 
@@ -60,7 +60,7 @@ std::string oneAgainstAll(const TableSettings& table, std::vector<const TableEnt
 std::string matrix(const TableSettings& table, const std::vector<TableEntry>& entries) {
   const std::size_t width = std::max<std::size_t>(widest(table), 14);
   std::string text = fmt::format("{:<{}}", "", width);
-  for (const SideChoice& side : table.sides) text += fmt::format("  {:<{}}", side.name, width);
+  for (const SideSettings& side : table.sides) text += fmt::format("  {:<{}}", side.name, width);
   text += "\n";
   for (std::size_t row = 0; row < table.sides.size(); ++row) {
     text += fmt::format("{:<{}}", table.sides[row].name, width);
@@ -99,16 +99,16 @@ std::vector<TableEntry> tableEntries(const TableSettings& table) {
   return entries;
 }
 
-SeriesChoice seriesOf(const TableSettings& table, const TableEntry& entry) {
-  SeriesChoice choice = table.games;
-  choice.a = table.sides[entry.a];
-  choice.b = table.sides[entry.b];
-  if (choice.place.empty()) choice.place = choice.a.ours() && choice.b.ours() ? "process" : "tcp";
-  return choice;
+SeriesSettings seriesOf(const TableSettings& table, const TableEntry& entry) {
+  SeriesSettings settings = table.games;
+  settings.a = table.sides[entry.a];
+  settings.b = table.sides[entry.b];
+  if (settings.place.empty()) settings.place = settings.a.ours() && settings.b.ours() ? "process" : "tcp";
+  return settings;
 }
 
 std::string tableText(const TableSettings& table, const std::vector<TableEntry>& entries) {
-  const SeriesChoice& games = table.games;
+  const SeriesSettings& games = table.games;
   std::string text = fmt::format("\n{}\n", table.title);
   if (table.against)
     text += fmt::format("goals per ten minutes by which {} is better (standard error), ",
@@ -122,7 +122,7 @@ std::string tableText(const TableSettings& table, const std::vector<TableEntry>&
 }
 
 ordered_json tableJson(const TableSettings& table, const std::vector<TableEntry>& entries) {
-  const SeriesChoice& games = table.games;
+  const SeriesSettings& games = table.games;
   ordered_json json = {{"title", table.title},
                        {"date", games.date},
                        {"version", games.version},
@@ -133,7 +133,7 @@ ordered_json tableJson(const TableSettings& table, const std::vector<TableEntry>
                        {"sides", ordered_json::array()},
                        {"entries", ordered_json::array()}};
   if (table.against) json["against"] = table.sides[*table.against].name;
-  for (const SideChoice& side : table.sides)
+  for (const SideSettings& side : table.sides)
     json["sides"].push_back({{"name", side.name}, {"side", side.describe()}});
   for (const TableEntry& entry : entries) {
     ordered_json line = {{"a", table.sides[entry.a].name}, {"b", table.sides[entry.b].name}};

@@ -64,7 +64,7 @@ std::string besideFile(const std::string& word, const fs::path& folder) {
   return fs::exists(beside) ? fs::absolute(beside).lexically_normal().string() : word;
 }
 
-SideChoice readSide(const toml::table& table, const std::string& path, const std::string& dataFolder) {
+SideSettings readSide(const toml::table& table, const std::string& path, const std::string& dataFolder) {
   Reader reader(table, path);
   std::string name;
   std::string word;
@@ -79,7 +79,7 @@ SideChoice readSide(const toml::table& table, const std::string& path, const std
   const fs::path folder = fs::path(path).parent_path();
   if (word.empty()) word = name;
   const bool path_like = word.find("{port}") == std::string::npos && word.find('/') != std::string::npos;
-  SideChoice side;
+  SideSettings side;
   try {
     side = sideFromWord(path_like ? besideFile(word, folder) : word, dataFolder);
   } catch (const std::runtime_error& error) {
@@ -95,7 +95,7 @@ SideChoice readSide(const toml::table& table, const std::string& path, const std
 
 void checkSides(const TableSettings& table, const std::string& path) {
   std::set<std::string> names;
-  for (const SideChoice& side : table.sides) {
+  for (const SideSettings& side : table.sides) {
     if (!names.insert(side.name).second)
       throw std::runtime_error(fmt::format("{}: two sides are called '{}'", path, side.name));
   }
@@ -113,7 +113,7 @@ TableSettings readTable(const std::string& path, const std::string& dataFolder) 
     throw std::runtime_error(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
   }
   TableSettings table;
-  SeriesChoice& games = table.games;
+  SeriesSettings& games = table.games;
   games.place.clear();
   Reader reader(file, path);
   std::string against;

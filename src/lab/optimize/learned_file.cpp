@@ -15,7 +15,7 @@
 
 #include "nonet/config/parameters.h"
 #include "nonet/lab/common/statistics.h"
-#include "nonet/lab/optimize/optimization_config.h"
+#include "nonet/lab/optimize/optimization_settings.h"
 
 namespace nonet::lab {
 

@@ -50,21 +50,21 @@ json readJson(const std::string& path) {
 }
 
 /// What cannot make a search. Throws std::runtime_error.
-const OptimizationConfig& checked(const OptimizationConfig& config) {
+const OptimizationSettings& checked(const OptimizationSettings& settings) {
   const auto demand = [](bool holds, const char* what, double value) {
     if (!holds) throw std::runtime_error(fmt::format("{}, not {}", what, value));
   };
   constexpr int kSmallestPopulation = 4;  // below it CMA-ES has too few to choose from
-  demand(config.generations >= 1, "generations must be 1 or more", config.generations);
-  demand(config.sigma > 0.0 && config.sigma <= 1.0,
-         "sigma, a share of the search ranges, must be above 0 and at most 1", config.sigma);
-  demand(config.population == 0 || config.population >= kSmallestPopulation,
-         "the population must be 4 or more, or 0 for CMA-ES' default", config.population);
-  demand(config.trials >= 1, "trials must be 1 or more", config.trials);
-  demand(config.validationTrials >= 1, "validation trials must be 1 or more", config.validationTrials);
-  demand(config.validationEvery >= 1, "generations between validations must be 1 or more",
-         config.validationEvery);
-  return config;
+  demand(settings.generations >= 1, "generations must be 1 or more", settings.generations);
+  demand(settings.sigma > 0.0 && settings.sigma <= 1.0,
+         "sigma, a share of the search ranges, must be above 0 and at most 1", settings.sigma);
+  demand(settings.population == 0 || settings.population >= kSmallestPopulation,
+         "the population must be 4 or more, or 0 for CMA-ES' default", settings.population);
+  demand(settings.trials >= 1, "trials must be 1 or more", settings.trials);
+  demand(settings.validationTrials >= 1, "validation trials must be 1 or more", settings.validationTrials);
+  demand(settings.validationEvery >= 1, "generations between validations must be 1 or more",
+         settings.validationEvery);
+  return settings;
 }
 
 // Held until the last copy goes or the process ends, however it ends.
@@ -80,11 +80,11 @@ std::shared_ptr<void> lockFolder(const std::string& folder) {
   return {nullptr, [file](void*) { close(file); }};
 }
 
-CmaEsSettings cmaSettings(const OptimizationConfig& config, const SearchSpace& space) {
-  return {.population = config.population,
-          .sigma = config.sigma,
+CmaEsSettings cmaSettings(const OptimizationSettings& settings, const SearchSpace& space) {
+  return {.population = settings.population,
+          .sigma = settings.sigma,
           .active = true,
-          .seed = config.seed,
+          .seed = settings.seed,
           .low = space.low(),
           .high = space.high()};
 }
@@ -113,49 +113,50 @@ Eigen::VectorXd rankingFitness(const std::vector<std::vector<double>>& values, s
 
 }  // namespace
 
-OptimizationRun::OptimizationRun(std::string folder, const OptimizationConfig& config, std::string dataFolder)
+OptimizationRun::OptimizationRun(std::string folder, const OptimizationSettings& settings,
+                                 std::string dataFolder)
     : folder_(std::move(folder)),
-      config_(checked(config)),
+      settings_(checked(settings)),
       dataFolder_(std::move(dataFolder)),
-      space_(config.startParameters(dataFolder_), config.searchedKeys()),
-      optimizer_(space_.start(), cmaSettings(config, space_), config.restarts) {
+      space_(settings.startParameters(dataFolder_), settings.searchedKeys()),
+      optimizer_(space_.start(), cmaSettings(settings, space_), settings.restarts) {
   incumbent_.point = space_.start();
 }
 
-OptimizationConfig OptimizationRun::readConfig(const std::string& folder) {
+OptimizationSettings OptimizationRun::readSettings(const std::string& folder) {
   const std::string path = folder + kConfig;
   try {
-    return OptimizationConfig::fromJson(readJson(path));
+    return OptimizationSettings::fromJson(readJson(path));
   } catch (const json::exception& error) {
     throw std::runtime_error(fmt::format("{}: is damaged: {}", path, error.what()));
   }
 }
 
-OptimizationRun OptimizationRun::create(const std::string& folder, const OptimizationConfig& config,
+OptimizationRun OptimizationRun::create(const std::string& folder, const OptimizationSettings& settings,
                                         const std::string& dataFolder) {
   if (fs::exists(folder + kConfig)) {
     throw std::runtime_error(
         fmt::format("{} holds a run already: continue it with --resume or choose another folder", folder));
   }
-  OptimizationRun run(folder, config, dataFolder);
+  OptimizationRun run(folder, settings, dataFolder);
   fs::create_directories(folder);
   run.lock_ = lockFolder(folder);
   fs::remove(folder + kCheckpoint);
   std::ofstream generations(folder + kGenerations, std::ios::binary | std::ios::trunc);
   generations.close();
-  writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
+  writeAtomically(folder + kConfig, settings.toJson().dump(1) + "\n");
   return run;
 }
 
 OptimizationRun OptimizationRun::resume(const std::string& folder, const std::string& dataFolder,
                                         std::optional<int> generations) {
-  OptimizationConfig config = readConfig(folder);
+  OptimizationSettings settings = readSettings(folder);
   const std::shared_ptr<void> lock = lockFolder(folder);
-  if (generations && *generations != config.generations) {
-    config.generations = *generations;
-    writeAtomically(folder + kConfig, config.toJson().dump(1) + "\n");
+  if (generations && *generations != settings.generations) {
+    settings.generations = *generations;
+    writeAtomically(folder + kConfig, settings.toJson().dump(1) + "\n");
   }
-  OptimizationRun run(folder, config, dataFolder);
+  OptimizationRun run(folder, settings, dataFolder);
   run.lock_ = lock;
   // Killed before the first checkpoint: from the beginning.
   if (fs::exists(folder + kCheckpoint)) run.readCheckpoint();
@@ -196,7 +197,7 @@ OptimizationRun::Values OptimizationRun::evaluateGeneration(Evaluator& evaluator
                                                             const std::vector<std::uint64_t>& seeds) {
   std::vector<Eigen::VectorXd> all;
   for (Eigen::Index k = 0; k < points.cols(); ++k) all.emplace_back(points.col(k));
-  if (!config_.racing || seeds.size() < 2) return evaluate(evaluator, all, seeds);
+  if (!settings_.racing || seeds.size() < 2) return evaluate(evaluator, all, seeds);
 
   const auto half = static_cast<std::ptrdiff_t>((seeds.size() + 1) / 2);
   Values values = evaluate(evaluator, all, {seeds.begin(), seeds.begin() + half});
@@ -217,8 +218,9 @@ OptimizationRun::Values OptimizationRun::evaluateGeneration(Evaluator& evaluator
 // Fresh seeds, the same for all, and a challenger must win by more than the standard error of the paired
 // difference: the best of many noisy values is mostly luck.
 void OptimizationRun::validate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers) {
-  const auto seeds = trialSeeds(config_.seed, generation_, SeedStream::Validation, config_.validationTrials);
-  const SeedDraw draw{config_.seed, generation_, config_.validationTrials};
+  const auto seeds =
+      trialSeeds(settings_.seed, generation_, SeedStream::Validation, settings_.validationTrials);
+  const SeedDraw draw{settings_.seed, generation_, settings_.validationTrials};
   std::vector<Eigen::VectorXd> points{incumbent_.point};
   points.insert(points.end(), challengers.begin(), challengers.end());
   const Values values = evaluate(evaluator, points, seeds);
@@ -238,9 +240,9 @@ void OptimizationRun::validate(Evaluator& evaluator, const std::vector<Eigen::Ve
 }
 
 bool OptimizationRun::step(Evaluator& evaluator, GenerationReport& report) {
-  if (generation_ >= config_.generations || optimizer_.finished()) return false;
+  if (generation_ >= settings_.generations || optimizer_.finished()) return false;
   const Eigen::MatrixXd points = optimizer_.ask();
-  const auto seeds = trialSeeds(config_.seed, generation_ + 1, SeedStream::Candidates, config_.trials);
+  const auto seeds = trialSeeds(settings_.seed, generation_ + 1, SeedStream::Candidates, settings_.trials);
   const Values values = evaluateGeneration(evaluator, points, seeds);
   const Eigen::VectorXd fitness = rankingFitness(values, seeds.size());
   optimizer_.tell(-fitness);  // it minimises
@@ -248,7 +250,7 @@ bool OptimizationRun::step(Evaluator& evaluator, GenerationReport& report) {
 
   Eigen::Index best = 0;
   report.best = fitness.maxCoeff(&best);
-  if (generation_ == 1 || generation_ % config_.validationEvery == 0)
+  if (generation_ == 1 || generation_ % settings_.validationEvery == 0)
     validate(evaluator, {optimizer_.run().meanInBox(), points.col(best)});
 
   report.generation = generation_;
@@ -337,22 +339,22 @@ void OptimizationRun::restore(const json& state) {
 }
 
 Provenance OptimizationRun::origin() const {
-  return {.task = config_.task,
-          .robotType = config_.robotType,
-          .quickSolver = config_.quickSolver,
-          .runSeed = config_.seed,
+  return {.task = settings_.task,
+          .robotType = settings_.robotType,
+          .quickSolver = settings_.quickSolver,
+          .runSeed = settings_.seed,
           .population = optimizer_.run().population(),
           .generation = incumbent_.generation,
           .budget = incumbent_.budget,
           .fitness = mean(incumbent_.values),
           .standardError = standardError(incumbent_.values),
           .seeds = incumbent_.seeds,
-          .date = config_.date,
-          .version = config_.version};
+          .date = settings_.date,
+          .version = settings_.version};
 }
 
 void OptimizationRun::writeBest() const {
-  std::vector<Provenance> origins = config_.inherited;
+  std::vector<Provenance> origins = settings_.inherited;
   replaceProvenance(origins, origin());
   writeAtomically(folder_ + kBest, learnedToml(space_.apply(incumbent_.point), defaultParameters(dataFolder_),
                                                space_.keys(), origins));

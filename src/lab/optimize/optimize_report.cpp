@@ -116,7 +116,7 @@ std::string fitnessChart(const std::vector<json>& lines) {
   return figure(plot, kWidth, kHeight, "fitness");
 }
 
-std::string fitnessText(const OptimizationConfig& config, const std::vector<json>& lines) {
+std::string fitnessText(const OptimizationSettings& settings, const std::vector<json>& lines) {
   const json& last = lines.back();
   std::string text = fmt::format(
       "<p>Bands: one standard error of the mean over a point's trials. The best of many noisy candidates is\n"
@@ -125,7 +125,7 @@ std::string fitnessText(const OptimizationConfig& config, const std::vector<json
       "fresh seeds, and gives way to who wins by more than the standard error of the difference (upright\n"
       "lines). Its value is the mean of all its own trials: it moves as trials are added, mostly down at\n"
       "first, since who has just won was lucky too",
-      config.validationEvery, config.validationTrials);
+      settings.validationEvery, settings.validationTrials);
   if (last.contains("incumbentGeneration") && last["incumbent"].is_number()) {
     text += fmt::format("; now {:.4g}", last["incumbent"].get<double>());
     if (last.contains("incumbentError"))
@@ -202,11 +202,11 @@ std::string parameterPaths(const std::vector<json>& lines, const SearchSpace& sp
 std::string writeOptimizationReport(const std::string& folder, const std::string& dataFolder) {
   std::ifstream configFile(folder + "/config.json");
   if (!configFile) throw std::runtime_error(fmt::format("{} is not the folder of a run", folder));
-  const auto config = OptimizationConfig::fromJson(json::parse(configFile));
+  const auto settings = OptimizationSettings::fromJson(json::parse(configFile));
   const std::vector<json> lines = readLines(folder + "/generations.jsonl");
   if (lines.empty()) throw std::runtime_error(fmt::format("{}: no generation is finished yet", folder));
-  const agent::AgentParameters parameters = config.startParameters(dataFolder);
-  const SearchSpace space(parameters, config.searchedKeys());
+  const agent::AgentParameters parameters = settings.startParameters(dataFolder);
+  const SearchSpace space(parameters, settings.searchedKeys());
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html><head><meta charset='utf-8'><title>{0}</title><style>"
       "body{{font:14px sans-serif;margin:2em;max-width:1100px}} figure{{margin:0 0 1em}}"
@@ -214,10 +214,10 @@ std::string writeOptimizationReport(const std::string& folder, const std::string
       "</style></head><body>\n<h1>{0}, robot type {1}</h1>\n"
       "<p>{2} of {3} generations, {4} trials, {5} physics, seed {6}, {7} parameters, begun {8}, version "
       "{9}.</p>\n",
-      config.task, config.robotType, lines.back().at("generation").get<int>(), config.generations,
-      lines.back().at("trials").get<std::int64_t>(), config.quickSolver ? "quick" : "exact", config.seed,
-      space.dimension(), config.date, config.version);
-  html += fitnessChart(lines) + fitnessText(config, lines) + stepChart(lines);
+      settings.task, settings.robotType, lines.back().at("generation").get<int>(), settings.generations,
+      lines.back().at("trials").get<std::int64_t>(), settings.quickSolver ? "quick" : "exact", settings.seed,
+      space.dimension(), settings.date, settings.version);
+  html += fitnessChart(lines) + fitnessText(settings, lines) + stepChart(lines);
   html += parameterPaths(lines, space, parameters) + "</body></html>\n";
   std::string path = folder + "/report.html";
   writeAtomically(path, html);

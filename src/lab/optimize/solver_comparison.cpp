@@ -47,21 +47,21 @@ double rankCorrelation(const std::vector<double>& a, const std::vector<double>& 
   return xy / std::sqrt(xx * yy);
 }
 
-SolverComparison compareSolvers(const OptimizationConfig& config, int sets, const std::string& dataFolder,
+SolverComparison compareSolvers(const OptimizationSettings& settings, int sets, const std::string& dataFolder,
                                 int threads) {
-  const SearchSpace space(config.startParameters(dataFolder), config.searchedKeys());
-  Random random = Random(config.seed).fork(3);
-  const auto seeds = trialSeeds(config.seed, 0, SeedStream::Candidates, config.trials);
+  const SearchSpace space(settings.startParameters(dataFolder), settings.searchedKeys());
+  Random random = Random(settings.seed).fork(3);
+  const auto seeds = trialSeeds(settings.seed, 0, SeedStream::Candidates, settings.trials);
   std::vector<Job> jobs;
   for (int k = 0; k < sets; ++k) {
-    const double spread = config.sigma * random.uniform(0.2, 1.5);
+    const double spread = settings.sigma * random.uniform(0.2, 1.5);
     Eigen::VectorXd point = space.start();
     for (Eigen::Index i = 0; i < point.size(); ++i) point[i] += spread * random.normal();
     point = point.cwiseMax(space.low()).cwiseMin(space.high());
     for (const std::uint64_t seed : seeds) jobs.push_back({point, seed});
   }
   const auto evaluate = [&](bool quick, double& secondsPerTrial) {
-    OptimizationConfig with = config;
+    OptimizationSettings with = settings;
     with.quickSolver = quick;
     const auto evaluator = makeThreadEvaluator(makeObjective(with, dataFolder), threads);
     const double before = processorSeconds();
@@ -70,7 +70,7 @@ SolverComparison compareSolvers(const OptimizationConfig& config, int sets, cons
     std::vector<double> means;
     for (std::size_t begin = 0; begin < values.size(); begin += seeds.size()) {
       const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
-      means.push_back(std::accumulate(first, first + config.trials, 0.0) / config.trials);
+      means.push_back(std::accumulate(first, first + settings.trials, 0.0) / settings.trials);
     }
     return means;
   };

@@ -58,7 +58,7 @@ nlohmann::ordered_json jsonOf(const KickFigure& figure, double unit = 1.0) {
 
 }  // namespace
 
-std::vector<std::string> kickNames(const agent::AgentConfig& agent) {
+std::vector<std::string> kickNames(const agent::AgentSettings& agent) {
   const motion::SkillLibrary library(agent.skillFolder, agent.parameters.motion.skills);
   const motion::KickCatalogue catalogue(library, agent.robotType);
   std::vector<std::string> names;

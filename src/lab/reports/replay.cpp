@@ -100,8 +100,8 @@ std::optional<Quantiles> quantiles(const std::vector<double>& sample) {
 
 class Replay {
  public:
-  Replay(const std::string& path, const ReplaySettings& settings, const agent::AgentConfig& config)
-      : settings_(settings), reader_(path), session_({config, true}) {
+  Replay(const std::string& path, const ReplaySettings& settings, const agent::AgentSettings& agentSettings)
+      : settings_(settings), reader_(path), session_({agentSettings, true}) {
     report_.file = path;
     report_.own = reader_.header().has_value();
   }
@@ -264,7 +264,7 @@ nlohmann::ordered_json toJson(const std::optional<Quantiles>& error, double scal
   return {{"count", error->count}, {"median", error->median * scale}, {"p95", error->p95 * scale}};
 }
 
-agent::AgentConfig recordedAgent(const std::string& path, const ReplaySettings& settings) {
+agent::AgentSettings recordedAgent(const std::string& path, const ReplaySettings& settings) {
   protocol::LogReader reader(path);
   LogLine line;
   if (reader.header()) {
@@ -272,12 +272,13 @@ agent::AgentConfig recordedAgent(const std::string& path, const ReplaySettings& 
       throw protocol::LogError(
           path + ": --unum, --team and --type are for foreign logs; our own say who recorded them");
     }
-    agent::AgentConfig config = agent::agentFromLog(*reader.header(), settings.dataFolder, path);
+    agent::AgentSettings agentSettings = agent::agentFromLog(*reader.header(), settings.dataFolder, path);
     while (reader.next(line) && line.kind == LogLine::Kind::Comment) {
-      if (const auto start = agent::startFromComment(line.text)) config.startPose = start;
+      if (const auto start = agent::startFromComment(line.text)) agentSettings.startPose = start;
     }
-    for (const std::string& file : settings.parameterFiles) config::overlayFile(config.parameters, file);
-    return config;
+    for (const std::string& file : settings.parameterFiles)
+      config::overlayFile(agentSettings.parameters, file);
+    return agentSettings;
   }
   Identity identity;
   for (int messages = 0; messages < kMessagesToLookAt && reader.next(line);) {
@@ -289,15 +290,16 @@ agent::AgentConfig recordedAgent(const std::string& path, const ReplaySettings& 
   choice.team = settings.team.value_or(identity.team.value_or("Nonet"));
   choice.robotType = settings.robotType.value_or(identity.robotType.value_or(0));
   choice.parameterFiles = settings.parameterFiles;
-  return agent::makeAgentConfig(choice, settings.dataFolder);
+  return agent::makeAgentSettings(choice, settings.dataFolder);
 }
 
 }  // namespace
 
-agent::AgentConfig agentOfLog(const std::string& path, const ReplaySettings& settings) {
-  agent::AgentConfig config = recordedAgent(path, settings);
-  for (const std::string& text : settings.assignments) config::assignParameter(config.parameters, text);
-  return config;
+agent::AgentSettings agentOfLog(const std::string& path, const ReplaySettings& settings) {
+  agent::AgentSettings agentSettings = recordedAgent(path, settings);
+  for (const std::string& text : settings.assignments)
+    config::assignParameter(agentSettings.parameters, text);
+  return agentSettings;
 }
 
 ReplayReport replay(const std::string& path, const ReplaySettings& settings) {

@@ -150,7 +150,7 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
     const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
     std::unique_ptr<MeasuredRobot> own;
     if (!remote) {
-      TrialSetup setup = settings.setup;
+      TrialSettings setup = settings.setup;
       setup.seed = seed;
       own = makeMeasuredRobot(setup);
     }

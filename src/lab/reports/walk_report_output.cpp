@@ -197,7 +197,7 @@ std::string walkReportSvg(const WalkReport& report) {
   return svgPicture(600.0, 604.0, svg);
 }
 
-std::string walkTraceSvg(const TrialSetup& setup, const Pose2& velocity, double seconds) {
+std::string walkTraceSvg(const TrialSettings& setup, const Pose2& velocity, double seconds) {
   RobotTrial trial(setup);
   trial.settle(Pose2());
   const motion::WalkVelocity request{velocity};

@@ -27,7 +27,7 @@ class ApproachTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const agent::AgentConfig agent = agentOf(parameters, settings);
+    const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(9);
     double cost = 0.0, arrived = 0.0, falls = 0.0;

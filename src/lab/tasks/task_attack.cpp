@@ -26,7 +26,7 @@ class AttackTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const agent::AgentConfig agent = agentOf(parameters, settings);
+    const agent::AgentSettings agent = agentOf(parameters, settings);
     const Defence defence{dataAgent(settings, 0), dataAgent(settings, settings.robotType)};
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(10);

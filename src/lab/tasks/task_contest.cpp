@@ -23,8 +23,8 @@ class ContestTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const agent::AgentConfig agent = agentOf(parameters, settings);
-    const agent::AgentConfig opponent = dataAgent(settings, settings.robotType);
+    const agent::AgentSettings agent = agentOf(parameters, settings);
+    const agent::AgentSettings opponent = dataAgent(settings, settings.robotType);
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(9);
     double won = 0.0, falls = 0.0;

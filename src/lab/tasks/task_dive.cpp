@@ -42,7 +42,7 @@ class DiveTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const TrialSetup setup = trialSetup(parameters, seed, settings);
+    const TrialSettings setup = trialSettings(parameters, seed, settings);
     Random random = Random(seed).fork(7);
     double low = 0.0;
     double high = 0.0;

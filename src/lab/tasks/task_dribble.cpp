@@ -25,7 +25,7 @@ class DribbleTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const agent::AgentConfig agent = agentOf(parameters, settings);
+    const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(7);
     const Dribble straight = dribbleOnce(agent, server, random.next());

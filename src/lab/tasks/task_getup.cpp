@@ -27,7 +27,7 @@ class GetupTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const TrialSetup setup = trialSetup(parameters, seed, settings);
+    const TrialSettings setup = trialSettings(parameters, seed, settings);
     Random random = Random(seed).fork(4);
     double cost = 0.0;
     double time = 0.0;
@@ -45,7 +45,7 @@ class GetupTask final : public Task {
   }
 
  private:
-  static Rise fallAs(FallKind kind, const TrialSetup& setup, Random& random) {
+  static Rise fallAs(FallKind kind, const TrialSettings& setup, Random& random) {
     Rise rise;
     for (int i = 0; i < kMostTries && !rise.fell; ++i) rise = fallAndRise(setup, kind, random.next());
     return rise;

@@ -36,7 +36,7 @@ class KickTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    agent::AgentConfig agent;
+    agent::AgentSettings agent;
     agent.robotType = settings.robotType;
     agent.parameters = parameters;
     agent.skillFolder = settings.dataFolder + "/skills";

@@ -34,9 +34,9 @@ const Task& findTask(std::string_view name) {
   throw std::runtime_error(fmt::format("unknown task '{}': use one of {}", name, known));
 }
 
-TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings) {
-  TrialSetup setup;
+TrialSettings trialSettings(const agent::AgentParameters& parameters, std::uint64_t seed,
+                            const TaskSettings& settings) {
+  TrialSettings setup;
   setup.robotType = settings.robotType;
   setup.motion = parameters.motion;
   setup.world = parameters.world;
@@ -47,18 +47,18 @@ TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t se
   return setup;
 }
 
-agent::AgentConfig agentOf(const agent::AgentParameters& parameters, const TaskSettings& settings) {
-  agent::AgentConfig agent;
+agent::AgentSettings agentOf(const agent::AgentParameters& parameters, const TaskSettings& settings) {
+  agent::AgentSettings agent;
   agent.robotType = settings.robotType;
   agent.parameters = parameters;
   agent.skillFolder = settings.dataFolder + "/skills";
   return agent;
 }
 
-agent::AgentConfig dataAgent(const TaskSettings& settings, int robotType) {
+agent::AgentSettings dataAgent(const TaskSettings& settings, int robotType) {
   agent::AgentChoice choice;
   choice.robotType = robotType;
-  return agent::makeAgentConfig(choice, settings.dataFolder);
+  return agent::makeAgentSettings(choice, settings.dataFolder);
 }
 
 sim::Settings serverOf(const TaskSettings& settings) {
@@ -73,14 +73,14 @@ void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set) {
 }
 
 CourseTask::CourseTask(std::string_view name, std::string_view description, std::string_view key,
-                       const CourseOptions& options)
+                       const CourseSettings& options)
     : name_(name), description_(description), key_(key), options_(options) {
   options_.mostFalls = kMostFalls;
 }
 
 TaskResult CourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                                 const TaskSettings& settings) const {
-  const CourseResult course = runCourse(trialSetup(parameters, seed, settings), seed, options_);
+  const CourseResult course = runCourse(trialSettings(parameters, seed, settings), seed, options_);
   return {.fitness = course.reward,
           .measures = {{"falls", course.falls},
                        {"targets", course.targets},

@@ -25,7 +25,7 @@ class ReceiveTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const agent::AgentConfig agent = agentOf(parameters, settings);
+    const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(8);
     double fitness = 0.0, held = 0.0, rebound = 0.0, falls = 0.0;

@@ -44,7 +44,7 @@ class RunTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    const TrialSetup setup = trialSetup(parameters, seed, settings);
+    const TrialSettings setup = trialSettings(parameters, seed, settings);
     Random random = Random(seed).fork(10);
     double fitness = 0.0, fast = 0.0, falls = 0.0, fallsAfter = 0.0, stopTime = 0.0;
     for (int i = 0; i < kRuns; ++i) {

@@ -27,7 +27,7 @@ class SaveTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    agent::AgentConfig goalie;
+    agent::AgentSettings goalie;
     goalie.robotType = settings.robotType;
     goalie.parameters = parameters;
     goalie.skillFolder = settings.dataFolder + "/skills";

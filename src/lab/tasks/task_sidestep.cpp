@@ -25,7 +25,7 @@ class SidestepTask final : public TimedCourseTask {
 const Task& sidestepTask() {
   static const SidestepTask task(
       "sidestep", "as standardCourse, but only what is walked sideways and backward with a held heading",
-      "motion.sidestep.", CourseOptions::Items::HeldHeading);
+      "motion.sidestep.", CourseSettings::Items::HeldHeading);
   return task;
 }
 

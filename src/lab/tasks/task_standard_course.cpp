@@ -16,9 +16,9 @@ constexpr double kGivenUp = 300.0;  // s, for a course that was left after the l
 
 TaskResult TimedCourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                                      const TaskSettings& settings) const {
-  const TrialSetup setup = trialSetup(parameters, seed, settings);
+  const TrialSettings setup = trialSettings(parameters, seed, settings);
   const auto walk = [&](bool untilReached, bool changeSets) {
-    CourseOptions way = options();
+    CourseSettings way = options();
     way.untilReached = untilReached;
     way.changeSets = changeSets;
     return runCourse(setup, seed, way);
@@ -44,7 +44,7 @@ const Task& standardCourseTask() {
       "standardCourse",
       "the time for the course of goToTarget, walked with all sets; a fall there, within its time "
       "limits or while sets change costs 20 s, near falls cost too",
-      "motion.walk.", CourseOptions::Items::All);
+      "motion.walk.", CourseSettings::Items::All);
   return task;
 }
 

@@ -40,7 +40,7 @@ using Starts = std::vector<KickStart>;
 
 // How robots begin this kick with the values that the data folder has for it.
 Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
-  const agent::AgentConfig agent = dataAgent(settings, settings.robotType);
+  const agent::AgentSettings agent = dataAgent(settings, settings.robotType);
   Starts starts;
   const Random seeds(kSeed);
   for (int i = 0; i < kStarts; ++i) {
@@ -77,7 +77,7 @@ class SwingTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    agent::AgentConfig agent;
+    agent::AgentSettings agent;
     agent.robotType = settings.robotType;
     agent.parameters = parameters;
     agent.skillFolder = settings.dataFolder + "/skills";

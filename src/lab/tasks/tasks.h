@@ -36,13 +36,13 @@ const Task& blockTask();
 const Task& saveTask();
 const Task& quadraticTask();
 
-TrialSetup trialSetup(const agent::AgentParameters& parameters, std::uint64_t seed,
-                      const TaskSettings& settings);
+TrialSettings trialSettings(const agent::AgentParameters& parameters, std::uint64_t seed,
+                            const TaskSettings& settings);
 
 /// The whole agent of a game's task, and the server it plays on.
-agent::AgentConfig agentOf(const agent::AgentParameters& parameters, const TaskSettings& settings);
+agent::AgentSettings agentOf(const agent::AgentParameters& parameters, const TaskSettings& settings);
 /// The same of this type as the data folder has it: opponents, and robots that begin a stored start.
-agent::AgentConfig dataAgent(const TaskSettings& settings, int robotType);
+agent::AgentSettings dataAgent(const TaskSettings& settings, int robotType);
 sim::Settings serverOf(const TaskSettings& settings);
 
 /// Where the search for a walk set begins: at `walk`, unless the set was learned before.
@@ -58,7 +58,7 @@ class CourseTask : public Task {
  public:
   /// `key`: the prefix of the parameters to move. The texts must outlive the task.
   CourseTask(std::string_view name, std::string_view description, std::string_view key,
-             const CourseOptions& options);
+             const CourseSettings& options);
 
   std::string_view name() const override { return name_; }
   std::string_view description() const override { return description_; }
@@ -67,13 +67,13 @@ class CourseTask : public Task {
                       const TaskSettings& settings) const override;
 
  protected:
-  const CourseOptions& options() const { return options_; }
+  const CourseSettings& options() const { return options_; }
 
  private:
   std::string_view name_;
   std::string_view description_;
   std::string_view key_;
-  CourseOptions options_;
+  CourseSettings options_;
 };
 
 /// The time for the course with the sets that the agent itself would choose. The course is walked three
@@ -83,7 +83,7 @@ class CourseTask : public Task {
 class TimedCourseTask : public CourseTask {
  public:
   TimedCourseTask(std::string_view name, std::string_view description, std::string_view key,
-                  CourseOptions::Items items)
+                  CourseSettings::Items items)
       : CourseTask(name, description, key, {.items = items, .push = kLightPush}) {}
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,

@@ -124,7 +124,7 @@ Intention along(const BallPath& path) {
   return Guide(path);
 }
 
-GamePlayer fieldPlayer(const agent::AgentConfig& agent, const Pose2& X_WR, Mind mind, bool rightTeam) {
+GamePlayer fieldPlayer(const agent::AgentSettings& agent, const Pose2& X_WR, Mind mind, bool rightTeam) {
   GamePlayer player{agent, rightTeam, X_WR, std::move(mind)};
   player.agent.unum = kNumber;
   return player;

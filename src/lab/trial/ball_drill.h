@@ -35,7 +35,8 @@ Mind drilled(const team::TeamParameters& parameters, const Vector2& p_FTarget, t
 Intention along(const BallPath& path);
 
 /// A field player at that place.
-GamePlayer fieldPlayer(const agent::AgentConfig& agent, const Pose2& X_WR, Mind mind, bool rightTeam = false);
+GamePlayer fieldPlayer(const agent::AgentSettings& agent, const Pose2& X_WR, Mind mind,
+                       bool rightTeam = false);
 
 /// A trial with its track, which is judged by the truth.
 class RecordedTrial {

@@ -46,7 +46,7 @@ KickWatch watchOf(const motion::MotionState& motion) {
 
 // -- dribbling
 
-Dribble dribbleIn(const BallScene& scene, const agent::AgentConfig& agent, const sim::Settings& settings,
+Dribble dribbleIn(const BallScene& scene, const agent::AgentSettings& agent, const sim::Settings& settings,
                   double longest, std::uint64_t seed) {
   GameSituation situation = scene.situation;
   situation.players = {fieldPlayer(agent, scene.start, drilled(agent.parameters.team, along(scene.path)))};
@@ -95,7 +95,7 @@ constexpr double kStopTime = 3.0;  // s
 
 }  // namespace
 
-Approach approachOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed) {
+Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   GameSituation situation;
   situation.ball = {random.uniform(-8.0, 5.0), random.uniform(-5.0, 5.0)};
@@ -125,19 +125,19 @@ Approach approachOnce(const agent::AgentConfig& agent, const sim::Settings& sett
   return approach;
 }
 
-Dribble dribbleOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed) {
+Dribble dribbleOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   const BallScene scene = dribbleScene(random);
   return dribbleIn(scene, agent, settings, 30.0, random.next());
 }
 
-Dribble slalomOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed) {
+Dribble slalomOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   const BallScene scene = slalomScene(random);
   return dribbleIn(scene, agent, settings, 60.0, random.next());
 }
 
-Drive driveOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed) {
+Drive driveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   GameSituation situation;
   situation.ball = {random.uniform(-8.0, 12.0), random.uniform(-8.0, 8.0)};
@@ -158,7 +158,7 @@ Drive driveOnce(const agent::AgentConfig& agent, const sim::Settings& settings, 
   return drive;
 }
 
-Duel duelOnce(const agent::AgentConfig& agent, const agent::AgentConfig& opponent,
+Duel duelOnce(const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
               const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   GameSituation situation;
@@ -182,7 +182,7 @@ double Attack::worth() const {
   return out || lost ? 0.0 : kStillOpen;
 }
 
-Attack attackOnce(const agent::AgentConfig& agent, const Defence& defence, const sim::Settings& settings,
+Attack attackOnce(const agent::AgentSettings& agent, const Defence& defence, const sim::Settings& settings,
                   std::uint64_t seed) {
   Random random(seed);
   const Vector2 goal(0.5 * settings.fieldLength, 0.0);
@@ -213,7 +213,7 @@ Attack attackOnce(const agent::AgentConfig& agent, const Defence& defence, const
   return attack;
 }
 
-Reception receiveOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed) {
+Reception receiveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   const BallScene scene = passScene(random);
   GameSituation situation = scene.situation;
@@ -229,7 +229,7 @@ Reception receiveOnce(const agent::AgentConfig& agent, const sim::Settings& sett
   return reception;
 }
 
-Run runOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed) {
+Run runOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   const double aside = random.uniform(-6.0, 6.0);
   const Pose2 start(-13.0, aside, random.uniform(-0.1, 0.1));

@@ -80,8 +80,8 @@ void rise(RobotTrial& trial, Dive& dive) {
 
 }  // namespace
 
-Dive diveAndRise(const TrialSetup& setup, std::string_view name, Side side, std::uint64_t seed) {
-  TrialSetup own = setup;
+Dive diveAndRise(const TrialSettings& setup, std::string_view name, Side side, std::uint64_t seed) {
+  TrialSettings own = setup;
   own.seed = seed;
   RobotTrial trial(own);
   Random random(seed);

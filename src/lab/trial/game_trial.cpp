@@ -27,20 +27,22 @@ Pose2 inOwnField(const GamePlayer& player) {
   return player.rightTeam ? Pose2(0.0, 0.0, kPi) * player.X_WR : player.X_WR;
 }
 
-agent::AgentConfig configOf(const GamePlayer& player, int unum, std::uint64_t seed) {
-  agent::AgentConfig config = player.agent;
-  config.unum = unum;
-  config.team = player.rightTeam ? kRightName : kLeftName;
-  config.startPose = inOwnField(player);
-  config.seed = agent::agentSeed(seed, player.rightTeam, unum);
-  return config;
+agent::AgentSettings settingsOf(const GamePlayer& player, int unum, std::uint64_t seed) {
+  agent::AgentSettings agentSettings = player.agent;
+  agentSettings.unum = unum;
+  agentSettings.team = player.rightTeam ? kRightName : kLeftName;
+  agentSettings.startPose = inOwnField(player);
+  agentSettings.seed = agent::agentSeed(seed, player.rightTeam, unum);
+  return agentSettings;
 }
 
 // A robot that has itself beamed to its place before the trial and does then what its mind wants.
 class Puppet {
  public:
-  Puppet(const agent::AgentConfig& config, Mind mind)
-      : robot_(agent::robotConfig(config)), start_(*config.startPose), mind_(std::move(mind)) {}
+  Puppet(const agent::AgentSettings& agentSettings, Mind mind)
+      : robot_(agent::robotSettings(agentSettings)),
+        start_(*agentSettings.startPose),
+        mind_(std::move(mind)) {}
 
   const protocol::Effectors& step(const protocol::Percept& percept) {
     const world::WorldState& world = robot_.sense(percept);
@@ -91,26 +93,26 @@ struct GameTrial::Implementation {
     for (const GamePlayer& player : situation.players) {
       int& last = numbers[player.rightTeam ? 1 : 0];
       last = player.agent.unum > 0 ? player.agent.unum : last + 1;
-      enter(player, configOf(player, last, seed));
+      enter(player, settingsOf(player, last, seed));
     }
     simulation.step();
     learnRobots();
   }
 
-  void enter(const GamePlayer& player, const agent::AgentConfig& config) {
+  void enter(const GamePlayer& player, const agent::AgentSettings& agentSettings) {
     protocol::SceneEffector scene;
-    scene.robotType = config.robotType;
+    scene.robotType = agentSettings.robotType;
     protocol::InitEffector init;
-    init.unum = config.unum;
-    init.team.assign(config.team);
+    init.unum = agentSettings.unum;
+    init.team.assign(agentSettings.team);
     Entry entry;
     entry.handle = simulation.enter(scene, init);
     entry.rightTeam = player.rightTeam;
-    entry.unum = config.unum;
+    entry.unum = agentSettings.unum;
     if (player.mind) {
-      entry.mind = std::make_unique<Puppet>(config, player.mind);
+      entry.mind = std::make_unique<Puppet>(agentSettings, player.mind);
     } else {
-      entry.mind = std::make_unique<agent::Agent>(config);
+      entry.mind = std::make_unique<agent::Agent>(agentSettings);
     }
     entries.push_back(std::move(entry));
   }

@@ -64,7 +64,7 @@ double kickBearing(int trial) {
   return kPi * ((trial % kBearings + 0.5) / kBearings - 0.5);
 }
 
-Kick kickOnce(const agent::AgentConfig& agent, const sim::Settings& settings, const KickScene& scene,
+Kick kickOnce(const agent::AgentSettings& agent, const sim::Settings& settings, const KickScene& scene,
               std::uint64_t seed) {
   Random random(seed);
   const KickGame game = kickGame(agent, scene, random);

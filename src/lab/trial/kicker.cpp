@@ -51,7 +51,7 @@ team::Action Kicker::operator()(const world::WorldState& world, const motion::Mo
   return {};
 }
 
-KickGame kickGame(const agent::AgentConfig& agent, const KickScene& scene, Random& random) {
+KickGame kickGame(const agent::AgentSettings& agent, const KickScene& scene, Random& random) {
   // Where lines and goals are as far as anywhere on average.
   const Vector2 ball(random.uniform(-8.0, 4.0), random.uniform(-5.0, 5.0));
   const double heading = random.uniform(-0.7, 0.7);

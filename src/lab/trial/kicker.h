@@ -38,6 +38,6 @@ struct KickGame {
   Vector2 p_FTarget = Vector2::Zero();
   std::shared_ptr<Kicker> kicker;
 };
-KickGame kickGame(const agent::AgentConfig& agent, const KickScene& scene, Random& random);
+KickGame kickGame(const agent::AgentSettings& agent, const KickScene& scene, Random& random);
 
 }  // namespace nonet::lab

@@ -6,7 +6,7 @@ namespace {
 
 class InProcessRobot final : public MeasuredRobot {
  public:
-  explicit InProcessRobot(const TrialSetup& setup) : trial_(setup) {}
+  explicit InProcessRobot(const TrialSettings& setup) : trial_(setup) {}
   void settle(const Pose2& X_FR) override { trial_.settle(X_FR); }
   void step(const motion::MotionRequest& request) override { trial_.step(request); }
   Pose2 pose() const override { return trial_.pose(); }
@@ -19,7 +19,7 @@ class InProcessRobot final : public MeasuredRobot {
 
 }  // namespace
 
-std::unique_ptr<MeasuredRobot> makeMeasuredRobot(const TrialSetup& setup) {
+std::unique_ptr<MeasuredRobot> makeMeasuredRobot(const TrialSettings& setup) {
   return std::make_unique<InProcessRobot>(setup);
 }
 

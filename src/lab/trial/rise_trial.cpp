@@ -86,8 +86,8 @@ void rise(RobotTrial& trial, FallKind kind, Rise& result) {
 
 }  // namespace
 
-Rise fallAndRise(const TrialSetup& setup, FallKind kind, std::uint64_t seed) {
-  TrialSetup own = setup;
+Rise fallAndRise(const TrialSettings& setup, FallKind kind, std::uint64_t seed) {
+  TrialSettings own = setup;
   own.seed = seed;
   RobotTrial trial(own);
   Random random(seed);

@@ -17,12 +17,12 @@ constexpr double kStartHeight = 0.4;  // m, as after a beam (server facts 4.6)
 
 }  // namespace
 
-TrialSetup trialSetup(const agent::AgentConfig& config) {
-  return {agent::robotConfig(config), {}};
+TrialSettings trialSettings(const agent::AgentSettings& settings) {
+  return {agent::robotSettings(settings), {}};
 }
 
 struct RobotTrial::Implementation {
-  explicit Implementation(const TrialSetup& setup)
+  explicit Implementation(const TrialSettings& setup)
       : physics(setup.physics), handle(physics.addRobot(setup.robotType)), robot(setup), random(setup.seed) {
     blind.vision = false;
     physics.setBallPosition({0.0F, -9.0F, 0.042F});
@@ -64,7 +64,8 @@ struct RobotTrial::Implementation {
   protocol::Effectors underWay;
 };
 
-RobotTrial::RobotTrial(const TrialSetup& setup) : implementation_(std::make_unique<Implementation>(setup)) {}
+RobotTrial::RobotTrial(const TrialSettings& setup)
+    : implementation_(std::make_unique<Implementation>(setup)) {}
 RobotTrial::~RobotTrial() = default;
 
 void RobotTrial::place(const Pose2& X_FR) {

@@ -32,7 +32,7 @@ int cyclesIn(double seconds) {
   return static_cast<int>(std::lround(seconds / kCycleTime));
 }
 
-TrialSetup onOpenGround(TrialSetup setup, std::uint64_t seed) {
+TrialSettings onOpenGround(TrialSettings setup, std::uint64_t seed) {
   setup.physics.fieldLength = setup.physics.fieldWidth = kOpenGround;
   setup.seed = seed;
   return setup;
@@ -40,7 +40,7 @@ TrialSetup onOpenGround(TrialSetup setup, std::uint64_t seed) {
 
 class Runner {
  public:
-  Runner(const TrialSetup& setup, std::uint64_t seed)
+  Runner(const TrialSettings& setup, std::uint64_t seed)
       : random_(Random(seed).fork(9)), trial_(onOpenGround(setup, seed)) {
     trial_.physics().setBallPosition({0.0F, static_cast<float>(-kAway * 3.0), 0.042F});
   }
@@ -157,7 +157,7 @@ class Runner {
 
 }  // namespace
 
-RunOutcome runAhead(const TrialSetup& setup, std::uint64_t seed) {
+RunOutcome runAhead(const TrialSettings& setup, std::uint64_t seed) {
   return Runner(setup, seed).run();
 }
 

@@ -59,7 +59,7 @@ bool mayArrive(const Shot& shot) {
 }
 
 // An opponent that stands behind the ball and does nothing: the ball is not the goalie's to fetch.
-GamePlayer opponentBehind(const agent::AgentConfig& goalie, const Shot& shot) {
+GamePlayer opponentBehind(const agent::AgentSettings& goalie, const Shot& shot) {
   GamePlayer player;
   player.agent = goalie;
   player.agent.unum = 2;
@@ -70,7 +70,7 @@ GamePlayer opponentBehind(const agent::AgentConfig& goalie, const Shot& shot) {
   return player;
 }
 
-GameSituation situationOf(const agent::AgentConfig& agent, const Shot& shot, Random& random) {
+GameSituation situationOf(const agent::AgentSettings& agent, const Shot& shot, Random& random) {
   GamePlayer goalie;
   goalie.agent = agent;
   goalie.agent.unum = 1;
@@ -189,7 +189,7 @@ Shot drawShot(ShotKind kind, Random& random) {
   }
 }
 
-Save saveOnce(const agent::AgentConfig& goalie, const sim::Settings& settings, const Shot& shot,
+Save saveOnce(const agent::AgentSettings& goalie, const sim::Settings& settings, const Shot& shot,
               std::uint64_t seed) {
   Random random(seed);
   const GameSituation situation = situationOf(goalie, shot, random);

@@ -90,7 +90,7 @@ std::optional<TruePose> findTorso(std::string_view scene) {
 
 class ServerRobot final : public MeasuredRobot {
  public:
-  ServerRobot(const TrialSetup& setup, const ServerAddress& address)
+  ServerRobot(const TrialSettings& setup, const ServerAddress& address)
       : robot_(setup),
         agent_(io_, address.host, address.port),
         monitor_(io_, address.host, address.monitorPort) {
@@ -173,7 +173,8 @@ class ServerRobot final : public MeasuredRobot {
 
 }  // namespace
 
-std::unique_ptr<MeasuredRobot> connectMeasuredRobot(const TrialSetup& setup, const ServerAddress& address) {
+std::unique_ptr<MeasuredRobot> connectMeasuredRobot(const TrialSettings& setup,
+                                                    const ServerAddress& address) {
   return std::make_unique<ServerRobot>(setup, address);
 }
 

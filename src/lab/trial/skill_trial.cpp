@@ -35,7 +35,7 @@ class Stage {
  public:
   explicit Stage(const SkillTrialSettings& settings)
       : settings_(settings),
-        robot_(agent::robotConfig(settings.agent)),
+        robot_(agent::robotSettings(settings.agent)),
         library_(settings.agent.skillFolder, settings.agent.parameters.motion.skills),
         player_(robot_.model(), library_, standOf(settings.agent)),
         simulation_(trialServer({}, kPreparation), settings.agent.seed) {
@@ -67,7 +67,7 @@ class Stage {
   }
 
  private:
-  static model::JointArray standOf(const agent::AgentConfig& agent) {
+  static model::JointArray standOf(const agent::AgentSettings& agent) {
     const motion::MotionParameters& motion = agent.parameters.motion;
     return motion::WalkEngine::standAngles(model::robotModel(agent.robotType),
                                            motion.sets.of(motion.selection.standSet()));

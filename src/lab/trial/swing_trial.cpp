@@ -44,7 +44,7 @@ sim::WorldSettings worldOf(bool quickSolver) {
 
 }  // namespace
 
-std::optional<KickStart> kickStart(const agent::AgentConfig& agent, const sim::Settings& settings,
+std::optional<KickStart> kickStart(const agent::AgentSettings& agent, const sim::Settings& settings,
                                    const KickScene& scene, std::uint64_t seed) {
   Random random(seed);
   const KickGame game = kickGame(agent, scene, random);
@@ -65,7 +65,7 @@ std::optional<KickStart> kickStart(const agent::AgentConfig& agent, const sim::S
 }
 
 struct SwingTrial::Implementation {
-  Implementation(const agent::AgentConfig& agent, const std::string& name, bool quickSolver)
+  Implementation(const agent::AgentSettings& agent, const std::string& name, bool quickSolver)
       : kick(name),
         model(model::robotModel(agent.robotType)),
         library(agent.skillFolder, agent.parameters.motion.skills),
@@ -179,7 +179,7 @@ struct SwingTrial::Implementation {
   double direction = 0.0;  // world, rad: where the ball should go
 };
 
-SwingTrial::SwingTrial(const agent::AgentConfig& agent, const std::string& kick, bool quickSolver)
+SwingTrial::SwingTrial(const agent::AgentSettings& agent, const std::string& kick, bool quickSolver)
     : implementation_(std::make_unique<Implementation>(agent, kick, quickSolver)) {}
 SwingTrial::~SwingTrial() = default;
 

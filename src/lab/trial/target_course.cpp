@@ -161,7 +161,7 @@ CourseItem places(Random& random, double side) {
 
 // The course wanders off by more than half a field. Walking into a goal or a ball is another matter than
 // walking: the goals stand out of reach and so does the ball.
-TrialSetup onOpenGround(TrialSetup setup) {
+TrialSettings onOpenGround(TrialSettings setup) {
   setup.physics.fieldLength = kOpenGround;
   setup.physics.fieldWidth = kOpenGround;
   return setup;
@@ -170,8 +170,8 @@ TrialSetup onOpenGround(TrialSetup setup) {
 // One robot on the course. After a fall a fresh one stands where the old one fell.
 class Walker {
  public:
-  Walker(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options)
-      : setup_(onOpenGround(setup)), options_(options), random_(Random(seed).fork(2)) {
+  Walker(const TrialSettings& setup, std::uint64_t seed, const CourseSettings& settings)
+      : setup_(onOpenGround(setup)), settings_(settings), random_(Random(seed).fork(2)) {
     // As in a game: no two starts are alike.
     stand({random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0), random_.uniform(-kPi, kPi)});
   }
@@ -180,7 +180,7 @@ class Walker {
     for (const CourseItem& item : course) {
       X_FItem_ = trial_->pose();
       for (const CourseLeg& leg : item.legs) {
-        if (result_.falls >= options_.mostFalls) return result_;
+        if (result_.falls >= settings_.mostFalls) return result_;
         walkLeg(leg);
       }
     }
@@ -200,7 +200,7 @@ class Walker {
     const Vector2 target = (origin * Pose2(leg.target, 0.0)).translation;
     const double heading = start.rotation + leg.turn;
     const double whole = left(leg, start, target, heading);
-    const bool open = options_.untilReached && leg.kind != Kind::Stop;
+    const bool open = settings_.untilReached && leg.kind != Kind::Stop;
     const double allowed = open ? kLongestLeg : leg.time;
     const int cycles = std::max(1, static_cast<int>(std::lround(allowed / kCycleTime)));
     Vector2 noise = Vector2::Zero();
@@ -211,8 +211,8 @@ class Walker {
     for (int i = 0; i < cycles && !reached; ++i) {
       if (leg.noise > 0.0 && i % std::lround(kNoiseHold / kCycleTime) == 0)
         noise = leg.noise * Vector2(random_.normal(), random_.normal());
-      if (options_.push > 0.0 && random_.uniform() < kCycleTime / kPushEvery) push();
-      if (options_.changeSets && random_.uniform() < kCycleTime / kChangeEvery) changeSet();
+      if (settings_.push > 0.0 && random_.uniform() < kCycleTime / kPushEvery) push();
+      if (settings_.changeSets && random_.uniform() < kCycleTime / kChangeEvery) changeSet();
       trial_->step(request(leg, at, target + noise, start.rotation, heading));
       if (exploded()) return giveUp();
       const Pose2 now = trial_->pose();
@@ -256,29 +256,29 @@ class Walker {
       case Kind::Stop:
         break;
       case Kind::Walk:
-        return motion::WalkTo{Pose2(p_RT, directionOf(p_RT)), false, options_.set};
+        return motion::WalkTo{Pose2(p_RT, directionOf(p_RT)), false, settings_.set};
       case Kind::Place:
-        return motion::WalkTo{Pose2(p_RT, wrapAngle(heading - at.rotation)), true, options_.set};
+        return motion::WalkTo{Pose2(p_RT, wrapAngle(heading - at.rotation)), true, settings_.set};
       case Kind::Shift: {
         const double turn = kHeadingGain * wrapAngle(held - at.rotation);
-        return motion::WalkVelocity{Pose2(kFastest * p_RT.normalized(), turn), options_.set};
+        return motion::WalkVelocity{Pose2(kFastest * p_RT.normalized(), turn), settings_.set};
       }
       case Kind::Turn: {
         const double turn = kHeadingGain * 2.0 * wrapAngle(heading - at.rotation);
         return motion::WalkVelocity{Pose2(0.0, 0.0, std::clamp(turn, -kFastestTurn, kFastestTurn)),
-                                    options_.set};
+                                    settings_.set};
       }
     }
-    return motion::Stand{options_.set};
+    return motion::Stand{settings_.set};
   }
 
   void changeSet() {
     using motion::WalkSet;
-    options_.set = options_.set == WalkSet::Positioning ? WalkSet::GoToTarget : WalkSet::Positioning;
+    settings_.set = settings_.set == WalkSet::Positioning ? WalkSet::GoToTarget : WalkSet::Positioning;
   }
 
   void push() {
-    const Vector2 v = polar(options_.push * std::sqrt(random_.uniform()), random_.uniform(-kPi, kPi));
+    const Vector2 v = polar(settings_.push * std::sqrt(random_.uniform()), random_.uniform(-kPi, kPi));
     sim::World& physics = trial_->physics();
     for (const model::BodySpec& body : trial_->model().bodies()) {
       auto state = physics.bodyState(trial_->robot(), body.id);
@@ -290,8 +290,8 @@ class Walker {
   void fall(const Pose2& at, int cycles) {
     result_.time += cycles * kCycleTime;
     result_.falls += 1;
-    result_.reward -= options_.fallCost;
-    if (result_.falls < options_.mostFalls) stand(at);
+    result_.reward -= settings_.fallCost;
+    if (result_.falls < settings_.mostFalls) stand(at);
   }
 
   // Absurd parameters can drive the solver to numbers that are none; ODE would end the process on the next
@@ -301,12 +301,12 @@ class Walker {
     return !torso.allFinite() || torso.norm() > kFarthest;
   }
   void giveUp() {
-    result_.reward -= options_.fallCost * (options_.mostFalls - result_.falls);
-    result_.falls = options_.mostFalls;
+    result_.reward -= settings_.fallCost * (settings_.mostFalls - result_.falls);
+    result_.falls = settings_.mostFalls;
   }
 
-  TrialSetup setup_;
-  CourseOptions options_;
+  TrialSettings setup_;
+  CourseSettings settings_;
   Random random_;
   std::unique_ptr<RobotTrial> trial_;
   Pose2 X_FItem_;
@@ -327,18 +327,18 @@ std::vector<CourseItem> makeCourse(std::uint64_t seed) {
   return course;
 }
 
-CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options) {
+CourseResult runCourse(const TrialSettings& setup, std::uint64_t seed, const CourseSettings& settings) {
   std::vector<CourseItem> course = makeCourse(seed);
-  if (options.items == CourseOptions::Items::HeldHeading) {
+  if (settings.items == CourseSettings::Items::HeldHeading) {
     std::erase_if(course, [](const CourseItem& item) {
       return std::any_of(item.legs.begin(), item.legs.end(),
                          [](const CourseLeg& leg) { return leg.kind != Kind::Shift; });
     });
   }
-  return Walker(setup, seed, options).run(course);
+  return Walker(setup, seed, settings).run(course);
 }
 
-CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads,
+CourseSummary measureCourses(const TrialSettings& setup, std::uint64_t seed, int courses, int threads,
                              const TrialProgress& progress) {
   constexpr int kWays = 3;  // in time, until every target is reached, with changing sets
   std::array<std::vector<CourseResult>, kWays> results;
@@ -346,13 +346,13 @@ CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int co
   inParallel(kWays * courses, threads, progress, "courses", [&](int i) {
     const int course = i / kWays;
     const std::uint64_t courseSeed = Random(seed).fork(static_cast<std::uint64_t>(course)).next();
-    TrialSetup own = setup;
+    TrialSettings own = setup;
     own.seed = courseSeed;
-    CourseOptions options;
-    options.untilReached = i % kWays == 1;
-    options.changeSets = i % kWays == 2;
+    CourseSettings settings;
+    settings.untilReached = i % kWays == 1;
+    settings.changeSets = i % kWays == 2;
     results[static_cast<std::size_t>(i % kWays)][static_cast<std::size_t>(course)] =
-        runCourse(own, courseSeed, options);
+        runCourse(own, courseSeed, settings);
   });
   CourseSummary summary;
   summary.courses = courses;

@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as s
 
 }  // namespace
 
-Server::Implementation::Implementation(const Settings& settings, std::uint64_t s, const ServerOptions& o)
+Server::Implementation::Implementation(const Settings& settings, std::uint64_t s, const ServerSettings& o)
     : options(o),
       seed(s),
       simulation(settings, s),
@@ -194,7 +194,7 @@ bool Server::Implementation::matchIsOver() {
   return simulation.match().playMode == protocol::PlayMode::GameOver && ++cyclesAfterEnd > kLinger;
 }
 
-Server::Server(const Settings& settings, std::uint64_t seed, const ServerOptions& options)
+Server::Server(const Settings& settings, std::uint64_t seed, const ServerSettings& options)
     : implementation_(std::make_unique<Implementation>(settings, seed, options)) {}
 
 Server::~Server() {

@@ -14,7 +14,7 @@ namespace {
 
 EnvSettings settings() {
   EnvSettings settings;
-  settings.agent = agent::makeAgentConfig({}, NONET_SOURCE_DIR);
+  settings.agent = agent::makeAgentSettings({}, NONET_SOURCE_DIR);
   settings.server.quickSolver = true;
   return settings;
 }

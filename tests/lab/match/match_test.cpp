@@ -11,8 +11,8 @@
 namespace nonet::lab {
 namespace {
 
-MatchChoice shortMatch(std::uint64_t seed) {
-  MatchChoice choice;
+MatchSettings shortMatch(std::uint64_t seed) {
+  MatchSettings choice;
   choice.left.players = 2;
   choice.right.players = 2;
   choice.seed = seed;
@@ -52,7 +52,7 @@ TEST(Match, UsualTypesPassTheServersRules) {
 }
 
 TEST(Match, IsPlayedToTheEnd) {
-  MatchChoice choice = shortMatch(1);
+  MatchSettings choice = shortMatch(1);
   choice.check = true;
   const MatchResult result = playInProcess(choice, NONET_SOURCE_DIR, 1);
   EXPECT_EQ(result.violations, 0U) << result.invariants;
@@ -83,7 +83,7 @@ TEST(Match, NineAloneStandAndScore) {
   int goals = 0;
   constexpr int kMatches = 3;
   for (std::uint64_t seed = 1; seed <= kMatches; ++seed) {
-    MatchChoice choice;
+    MatchSettings choice;
     choice.right.players = 0;
     choice.seed = seed;
     choice.minutes = 1.5;
@@ -102,7 +102,7 @@ TEST(Match, NineAloneStandAndScore) {
 
 // The goalie and ten others: nobody is refused, and by radio they come to as many different roles.
 TEST(Match, ElevenAgreeOnElevenRoles) {
-  MatchChoice choice;
+  MatchSettings choice;
   choice.left.players = 11;
   choice.right.players = 0;
   choice.minutes = 1.0;
@@ -168,7 +168,7 @@ TEST(Match, LocalizationOfAllPlayersIsMeasuredAgainstTheSimulation) {
 TEST(Match, EverybodyKnowsTheOwnSideAtOnceAfterHalfTime) {
   // Vision comes in every third message, so half time is moved through all three places between two of them.
   for (int phase = 0; phase < 3; ++phase) {
-    MatchChoice choice = shortMatch(3);
+    MatchSettings choice = shortMatch(3);
     choice.minutes = (3.0 + 2.0 * phase * kCycleTime) / 60.0;
     choice.settings.changeSidesInSecondHalf = true;
     // Torsos in the frames of their teams: after the last cycle, and one cycle before, which is what a
@@ -206,7 +206,7 @@ TEST(Match, EverybodyKnowsTheOwnSideAtOnceAfterHalfTime) {
 
 // A robot that throws its legs forward falls, once, and is counted once however long it lies.
 TEST(MatchWatcher, CountsAFallOnce) {
-  MatchChoice choice = shortMatch(1);
+  MatchSettings choice = shortMatch(1);
   choice.left.players = choice.right.players = 1;
   choice.minutes = 1.0;
   sim::Simulation simulation(matchSettings(choice), 1);

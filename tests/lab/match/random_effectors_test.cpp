@@ -8,12 +8,12 @@ namespace {
 // A longer run: nonet soak --effectors 60
 TEST(RandomEffectors, NothingWellFormedBreaksThePhysics) {
   for (const std::uint64_t seed : {1U, 2U}) {
-    RandomEffectorsChoice choice;
-    choice.seed = seed;
-    choice.beams = seed == 1U;
-    choice.players = 3;
-    choice.minutes = 0.4;
-    const RandomEffectorsResult result = playRandomEffectors(choice);
+    RandomEffectorsSettings settings;
+    settings.seed = seed;
+    settings.beams = seed == 1U;
+    settings.players = 3;
+    settings.minutes = 0.4;
+    const RandomEffectorsResult result = playRandomEffectors(settings);
     EXPECT_EQ(result.cycles, 1200);
     EXPECT_GT(result.messages, 4000);
     EXPECT_EQ(result.violations, 0U) << "seed " << seed << ": " << result.messagesOfViolations.at(0);
@@ -21,14 +21,14 @@ TEST(RandomEffectors, NothingWellFormedBreaksThePhysics) {
 }
 
 TEST(RandomEffectors, TheSeedDecidesAllAndTheThreadsNothing) {
-  RandomEffectorsChoice choice;
-  choice.players = 2;
-  choice.minutes = 0.05;
-  const std::uint64_t first = playRandomEffectors(choice).signature;
-  choice.threads = 2;
-  EXPECT_EQ(playRandomEffectors(choice).signature, first);
-  choice.seed = 2;
-  EXPECT_NE(playRandomEffectors(choice).signature, first);
+  RandomEffectorsSettings settings;
+  settings.players = 2;
+  settings.minutes = 0.05;
+  const std::uint64_t first = playRandomEffectors(settings).signature;
+  settings.threads = 2;
+  EXPECT_EQ(playRandomEffectors(settings).signature, first);
+  settings.seed = 2;
+  EXPECT_NE(playRandomEffectors(settings).signature, first);
 }
 
 TEST(RandomEffectors, EndsWhenTold) {

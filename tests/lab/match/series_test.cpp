@@ -38,13 +38,13 @@ class Folder {
   fs::path path_;
 };
 
-SeriesChoice choiceOf(int pairs) {
-  SeriesChoice choice;
-  choice.a.name = "A";
-  choice.b.name = "B";
-  choice.pairs = pairs;
-  choice.date = "today";
-  return choice;
+SeriesSettings choiceOf(int pairs) {
+  SeriesSettings settings;
+  settings.a.name = "A";
+  settings.b.name = "B";
+  settings.pairs = pairs;
+  settings.date = "today";
+  return settings;
 }
 
 // Goals from the seed alone, A about one goal better.
@@ -73,7 +73,7 @@ TEST(Series, CountsWhatWasPlayed) {
   int wins = 0;
   double sum = 0.0;
   for (int i = 0; i < 14; ++i) {
-    const GameRecord record = fakeGame(gameOf(series.choice(), i));
+    const GameRecord record = fakeGame(gameOf(series.settings(), i));
     goals += record.scoreA();
     wins += record.scoreA() > record.scoreB() ? 1 : 0;
     sum += record.scoreA() - record.scoreB();
@@ -83,24 +83,24 @@ TEST(Series, CountsWhatWasPlayed) {
   EXPECT_EQ(result.wins, wins);
   EXPECT_EQ(result.wins + result.ties + result.losses, 14);
   EXPECT_NEAR(result.difference.mean, sum / 14.0, 1e-12) << "ten-minute games";
-  EXPECT_NE(result.toText(series.choice()).find("14 games"), std::string::npos);
+  EXPECT_NE(result.toText(series.settings()).find("14 games"), std::string::npos);
 }
 
 // A goes left first; both games of a pair share their seed, and no other pair has it.
 TEST(Series, GamesComeInPairs) {
-  const SeriesChoice choice = choiceOf(3);
+  const SeriesSettings settings = choiceOf(3);
   for (int pair = 0; pair < 3; ++pair) {
-    const SeriesGame first = gameOf(choice, 2 * pair);
-    const SeriesGame second = gameOf(choice, 2 * pair + 1);
+    const SeriesGame first = gameOf(settings, 2 * pair);
+    const SeriesGame second = gameOf(settings, 2 * pair + 1);
     EXPECT_EQ(first.seed, second.seed);
-    EXPECT_EQ(first.seed, choice.seed + static_cast<std::uint64_t>(pair));
+    EXPECT_EQ(first.seed, settings.seed + static_cast<std::uint64_t>(pair));
     EXPECT_TRUE(first.aLeft());
     EXPECT_FALSE(second.aLeft());
   }
   const std::string nowhere;
-  EXPECT_EQ(matchOf(choice, gameOf(choice, 0), nowhere).left.name, "A");
-  EXPECT_EQ(matchOf(choice, gameOf(choice, 1), nowhere).left.name, "B");
-  EXPECT_EQ(matchOf(choice, gameOf(choice, 1), nowhere).right.name, "A");
+  EXPECT_EQ(matchOf(settings, gameOf(settings, 0), nowhere).left.name, "A");
+  EXPECT_EQ(matchOf(settings, gameOf(settings, 1), nowhere).left.name, "B");
+  EXPECT_EQ(matchOf(settings, gameOf(settings, 1), nowhere).right.name, "A");
 }
 
 // The folder as a killed process leaves it: some games, half a line.
@@ -108,15 +108,15 @@ TEST(Series, KilledAndResumedItEndsInTheSameBytes) {
   const Folder whole("whole");
   const Folder killed("killed");
   for (const Folder* folder : {&whole, &killed}) {
-    SeriesChoice choice = choiceOf(10);
+    SeriesSettings settings = choiceOf(10);
     if (folder == &killed) {
-      Series series(folder->path(), choice);
-      for (const int index : {0, 3, 1, 7}) series.add(fakeGame(gameOf(choice, index)));
+      Series series(folder->path(), settings);
+      for (const int index : {0, 3, 1, 7}) series.add(fakeGame(gameOf(settings, index)));
       std::ofstream(folder->path() + "/matches.jsonl", std::ios::app) << R"({"pair":3,"game":1,"se)";
-      EXPECT_THROW(Series(folder->path(), choice), std::runtime_error) << "another process works on it";
+      EXPECT_THROW(Series(folder->path(), settings), std::runtime_error) << "another process works on it";
     }
-    choice.date = folder == &killed ? "tomorrow" : "today";
-    Series series(folder->path(), choice);
+    settings.date = folder == &killed ? "tomorrow" : "today";
+    Series series(folder->path(), settings);
     EXPECT_EQ(series.played(), folder == &killed ? 4 : 0);
     EXPECT_TRUE(playSeries(series, 2, kFake, kGoOn));
     series.finish();
@@ -130,10 +130,10 @@ TEST(Series, KilledAndResumedItEndsInTheSameBytes) {
 TEST(Series, TheSequentialTestStopsAtTheSameGameOnAnyNumberOfThreads) {
   const Folder one("one");
   const Folder four("four");
-  SeriesChoice choice = choiceOf(400);
-  choice.sequential = SequentialBounds{0.0, 0.5};
+  SeriesSettings settings = choiceOf(400);
+  settings.sequential = SequentialBounds{0.0, 0.5};
   for (const Folder* folder : {&one, &four}) {
-    Series series(folder->path(), choice);
+    Series series(folder->path(), settings);
     EXPECT_TRUE(playSeries(series, folder == &one ? 1 : 4, kFake, kGoOn));
     const SeriesResult result = series.finish();
     EXPECT_EQ(result.verdict, Verdict::High);
@@ -145,21 +145,21 @@ TEST(Series, TheSequentialTestStopsAtTheSameGameOnAnyNumberOfThreads) {
 
 TEST(Series, OtherGamesAreNotMixedIn) {
   const Folder folder("other");
-  SeriesChoice choice = choiceOf(2);
-  { const Series series(folder.path(), choice); }
-  choice.pairs = 5;
-  EXPECT_EQ(Series(folder.path(), choice).open().size(), 10U) << "more pairs are the same series";
-  choice.b.assignments = {"team.x=1"};
-  EXPECT_EQ(Series(folder.path(), choice).played(), 0) << "nothing was played yet: the choice may change";
-  { Series(folder.path(), choice).add(fakeGame(gameOf(choice, 0))); }
-  choice.b.assignments = {"team.x=2"};
-  EXPECT_THROW(Series(folder.path(), choice), std::runtime_error);
+  SeriesSettings settings = choiceOf(2);
+  { const Series series(folder.path(), settings); }
+  settings.pairs = 5;
+  EXPECT_EQ(Series(folder.path(), settings).open().size(), 10U) << "more pairs are the same series";
+  settings.b.assignments = {"team.x=1"};
+  EXPECT_EQ(Series(folder.path(), settings).played(), 0) << "nothing was played yet: the choice may change";
+  { Series(folder.path(), settings).add(fakeGame(gameOf(settings, 0))); }
+  settings.b.assignments = {"team.x=2"};
+  EXPECT_THROW(Series(folder.path(), settings), std::runtime_error);
 }
 
 TEST(Series, AChangedSideHasAnotherFingerprint) {
   const Folder folder("fingerprint");
   for (const char* name : {"/params", "/skills"}) fs::create_directories(folder.path() + name);
-  SideChoice side;
+  SideSettings side;
   side.dataFolder = folder.path();
   const std::string before = fingerprintOf(side, "");
   EXPECT_EQ(fingerprintOf(side, ""), before);
@@ -197,25 +197,25 @@ TEST(Series, VariantsAreSides) {
   for (const char* name : {"allball", "boxes", "defense", "static", "wall"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   for (const std::string& name : names) {
-    agent::AgentChoice choice;
-    choice.unum = 5;
-    choice.robotType = 3;
-    const auto full = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
-    const SideChoice side = sideFromWord(name, NONET_SOURCE_DIR);
+    agent::AgentChoice settings;
+    settings.unum = 5;
+    settings.robotType = 3;
+    const auto full = agent::makeAgentSettings(settings, NONET_SOURCE_DIR);
+    const SideSettings side = sideFromWord(name, NONET_SOURCE_DIR);
     EXPECT_TRUE(side.ours());
-    choice.parameterFiles = side.parameterFiles;
-    const auto variant = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+    settings.parameterFiles = side.parameterFiles;
+    const auto variant = agent::makeAgentSettings(settings, NONET_SOURCE_DIR);
     EXPECT_NE(config::toToml(full.parameters), config::toToml(variant.parameters)) << name;
   }
 }
 
 // The variant without learned walk has the code's own values, whatever was learned.
 TEST(Series, TheInitialWalkIsTheCodesOwn) {
-  agent::AgentChoice choice;
-  choice.unum = 5;
-  choice.robotType = 3;
-  choice.parameterFiles = sideFromWord("initial-walk", NONET_SOURCE_DIR).parameterFiles;
-  const auto variant = agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  agent::AgentChoice settings;
+  settings.unum = 5;
+  settings.robotType = 3;
+  settings.parameterFiles = sideFromWord("initial-walk", NONET_SOURCE_DIR).parameterFiles;
+  const auto variant = agent::makeAgentSettings(settings, NONET_SOURCE_DIR);
   EXPECT_EQ(config::toToml(variant.parameters.motion.sets.goToTarget),
             config::toToml(motion::WalkParameters{}));
 }
@@ -223,14 +223,14 @@ TEST(Series, TheInitialWalkIsTheCodesOwn) {
 // The same team on both sides: the second game of a pair is the first with the names exchanged, so that every
 // pair is a tie in sum. Another seed is another game.
 TEST(Series, ATeamAgainstItselfInThisProcess) {
-  SeriesChoice choice = choiceOf(2);
-  choice.players = 2;
-  choice.minutes = 2.0 / 60.0;
-  choice.kickOffWait = 0.5;
+  SeriesSettings settings = choiceOf(2);
+  settings.players = 2;
+  settings.minutes = 2.0 / 60.0;
+  settings.kickOffWait = 0.5;
   const Folder folder("itself");
-  Series series(folder.path(), choice);
-  writeOverlays(choice, folder.path(), NONET_SOURCE_DIR);
-  EXPECT_TRUE(playSeries(series, 2, inProcessGames(choice, folder.path(), NONET_SOURCE_DIR), kGoOn));
+  Series series(folder.path(), settings);
+  writeOverlays(settings, folder.path(), NONET_SOURCE_DIR);
+  EXPECT_TRUE(playSeries(series, 2, inProcessGames(settings, folder.path(), NONET_SOURCE_DIR), kGoOn));
   const SeriesResult result = series.finish();
   EXPECT_EQ(result.games, 4);
   EXPECT_EQ(result.difference.mean, 0.0);
@@ -241,11 +241,11 @@ TEST(Series, ATeamAgainstItselfInThisProcess) {
 TEST(Series, OverlaysAreTriedBeforeTheFirstGame) {
   const Folder folder("overlay");
   fs::create_directories(folder.path());
-  SeriesChoice choice = choiceOf(1);
-  choice.a.assignments = {"team.noSuchThing=1"};
-  EXPECT_THROW(writeOverlays(choice, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
-  choice.a.assignments = {"nonsense"};
-  EXPECT_THROW(writeOverlays(choice, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
+  SeriesSettings settings = choiceOf(1);
+  settings.a.assignments = {"team.noSuchThing=1"};
+  EXPECT_THROW(writeOverlays(settings, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
+  settings.a.assignments = {"nonsense"};
+  EXPECT_THROW(writeOverlays(settings, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
 }
 
 }  // namespace

@@ -319,12 +319,12 @@ bool clockRuns(PlayMode mode) {
 // The monitor stream of a match gives the same frames as the match itself: positions to the 5 mm that the
 // stream leaves out, everything else exactly.
 TEST(FrameSources, StreamAndSimulationAgree) {
-  MatchChoice choice;
-  choice.left.players = choice.right.players = 2;
-  choice.minutes = 4.0 / 60.0;
-  choice.kickOffWait = 0.5;
-  choice.settings.changeSidesInSecondHalf = true;
-  choice.monitorLog =
+  MatchSettings settings;
+  settings.left.players = settings.right.players = 2;
+  settings.minutes = 4.0 / 60.0;
+  settings.kickOffWait = 0.5;
+  settings.settings.changeSidesInSecondHalf = true;
+  settings.monitorLog =
       (std::filesystem::temp_directory_path() / ("nonet_frames_" + std::to_string(::getpid()) + ".log"))
           .string();
   SimulationFrames source;
@@ -338,15 +338,15 @@ TEST(FrameSources, StreamAndSimulationAgree) {
     }
     return true;
   };
-  playInProcess(choice, NONET_SOURCE_DIR, 1, observers);
+  playInProcess(settings, NONET_SOURCE_DIR, 1, observers);
 
   int compared = 0;
   bool swapped = false;
-  readMonitorLog(choice.monitorLog, [&](const MonitorFrames& stream) {
+  readMonitorLog(settings.monitorLog, [&](const MonitorFrames& stream) {
     const Frame& seen = stream.frame();
     EXPECT_EQ(stream.field().length, 30.0);
     if (stream.teams()[0].empty() || !clockRuns(seen.mode)) return;
-    EXPECT_EQ(stream.teams()[0], choice.left.name);
+    EXPECT_EQ(stream.teams()[0], settings.left.name);
     const auto near = truth.lower_bound(seen.time - 1e-3);
     if (near == truth.end() || std::abs(near->first - seen.time) > 1e-3) return;
     const Frame& is = near->second;
@@ -366,7 +366,7 @@ TEST(FrameSources, StreamAndSimulationAgree) {
   });
   EXPECT_GT(compared, 10);
   EXPECT_TRUE(swapped);
-  std::filesystem::remove(choice.monitorLog);
+  std::filesystem::remove(settings.monitorLog);
 }
 
 TEST(FrameSources, GarbageIsRefusedWithAReason) {

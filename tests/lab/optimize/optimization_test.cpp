@@ -31,23 +31,23 @@ class RunFolder : public testing::Test {
   }
   ~RunFolder() override { fs::remove_all(root_); }
 
-  static OptimizationConfig config() {
-    OptimizationConfig config;
-    config.task = "quadratic";
-    config.seed = 4;
-    config.generations = 120;
-    config.trials = 3;
-    config.racing = true;
-    config.validationTrials = 6;
-    config.restarts = RestartScheme::Bipop;
-    config.parameters = config::toToml(agent::AgentParameters{});
-    config.date = "2026-01-01";
-    config.version = "test";
-    return config;
+  static OptimizationSettings settings() {
+    OptimizationSettings settings;
+    settings.task = "quadratic";
+    settings.seed = 4;
+    settings.generations = 120;
+    settings.trials = 3;
+    settings.racing = true;
+    settings.validationTrials = 6;
+    settings.restarts = RestartScheme::Bipop;
+    settings.parameters = config::toToml(agent::AgentParameters{});
+    settings.date = "2026-01-01";
+    settings.version = "test";
+    return settings;
   }
 
   static void finish(OptimizationRun& run, int threads) {
-    const auto evaluator = makeThreadEvaluator(makeObjective(run.config(), ""), threads);
+    const auto evaluator = makeThreadEvaluator(makeObjective(run.settings(), ""), threads);
     GenerationReport report;
     while (run.step(*evaluator, report)) {
     }
@@ -71,14 +71,14 @@ class RunFolder : public testing::Test {
 
 TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
   const std::string straight = root_ + "/straight";
-  auto whole = OptimizationRun::create(straight, config(), "");
+  auto whole = OptimizationRun::create(straight, settings(), "");
   const auto begin = std::chrono::steady_clock::now();
   finish(whole, 1);
   const auto micros =
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin).count();
 
   const std::string killed = root_ + "/killed";
-  { OptimizationRun::create(killed, config(), ""); }
+  { OptimizationRun::create(killed, settings(), ""); }
   Random random(9);
   int kills = 0;
   for (bool finished = false; !finished;) {
@@ -102,24 +102,24 @@ TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
 }
 
 TEST_F(RunFolder, DoesNotDependOnTheThreadsAndCanBeExtended) {
-  auto one = OptimizationRun::create(root_ + "/one", config(), "");
+  auto one = OptimizationRun::create(root_ + "/one", settings(), "");
   finish(one, 1);
-  OptimizationConfig shorter = config();
+  OptimizationSettings shorter = settings();
   shorter.generations = 33;
   {
     auto three = OptimizationRun::create(root_ + "/three", shorter, "");
     finish(three, 3);
   }
-  auto longer = OptimizationRun::resume(root_ + "/three", "", config().generations);
+  auto longer = OptimizationRun::resume(root_ + "/three", "", settings().generations);
   finish(longer, 2);
   expectSameRun(root_ + "/one", root_ + "/three");
 }
 
 // A torn last line and a best.toml from after the checkpoint are what a kill between two writes leaves.
 TEST_F(RunFolder, ForgetsWhatWasWrittenAfterTheCheckpoint) {
-  auto whole = OptimizationRun::create(root_ + "/whole", config(), "");
+  auto whole = OptimizationRun::create(root_ + "/whole", settings(), "");
   finish(whole, 1);
-  OptimizationConfig half = config();
+  OptimizationSettings half = settings();
   half.generations = 60;
   {
     auto run = OptimizationRun::create(root_ + "/torn", half, "");
@@ -127,13 +127,13 @@ TEST_F(RunFolder, ForgetsWhatWasWrittenAfterTheCheckpoint) {
   }
   std::ofstream(root_ + "/torn/generations.jsonl", std::ios::app) << "{\"generation\":61,\"best";
   std::ofstream(root_ + "/torn/best.toml", std::ios::app) << "junk";
-  auto resumed = OptimizationRun::resume(root_ + "/torn", "", config().generations);
+  auto resumed = OptimizationRun::resume(root_ + "/torn", "", settings().generations);
   finish(resumed, 1);
   expectSameRun(root_ + "/whole", root_ + "/torn");
 }
 
 TEST_F(RunFolder, ImprovesAndItsProvenanceRepeats) {
-  auto run = OptimizationRun::create(root_ + "/run", config(), "");
+  auto run = OptimizationRun::create(root_ + "/run", settings(), "");
   finish(run, 2);
   const std::string best = root_ + "/run/best.toml";
   const auto repetitions = repeatLearned(best, "", 2);
@@ -157,26 +157,26 @@ TEST_F(RunFolder, ImprovesAndItsProvenanceRepeats) {
   const auto point = line["candidates"][2]["point"].get<std::vector<double>>();
   const Eigen::VectorXd vector =
       Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
-  EXPECT_EQ(makeObjective(run.config(), "")({vector, line["seeds"][0].get<std::uint64_t>()}),
+  EXPECT_EQ(makeObjective(run.settings(), "")({vector, line["seeds"][0].get<std::uint64_t>()}),
             line["candidates"][2]["values"][0].get<double>());
 }
 
 TEST_F(RunFolder, RefusesToOverwriteARunAndToResumeNone) {
-  auto run = OptimizationRun::create(root_ + "/run", config(), "");
-  EXPECT_THROW(OptimizationRun::create(root_ + "/run", config(), ""), std::runtime_error);
+  auto run = OptimizationRun::create(root_ + "/run", settings(), "");
+  EXPECT_THROW(OptimizationRun::create(root_ + "/run", settings(), ""), std::runtime_error);
   EXPECT_THROW(OptimizationRun::resume(root_ + "/other", "", std::nullopt), std::runtime_error);
 }
 
 // When mpirun is killed its ranks may live on for a while.
 TEST_F(RunFolder, IsHeldByOneProcess) {
-  auto run = OptimizationRun::create(root_ + "/run", config(), "");
+  auto run = OptimizationRun::create(root_ + "/run", settings(), "");
   EXPECT_THROW(OptimizationRun::resume(root_ + "/run", "", std::nullopt), std::runtime_error);
   { const OptimizationRun last = std::move(run); }
   EXPECT_NO_THROW(OptimizationRun::resume(root_ + "/run", "", std::nullopt));
 }
 
 TEST_F(RunFolder, WritesAReportWithACurvePerParameter) {
-  OptimizationConfig shortRun = config();
+  OptimizationSettings shortRun = settings();
   shortRun.generations = 12;
   auto run = OptimizationRun::create(root_ + "/run", shortRun, "");
   finish(run, 1);
@@ -194,18 +194,18 @@ TEST_F(RunFolder, WritesAReportWithACurvePerParameter) {
 }
 
 TEST(Configuration, SurvivesItsFile) {
-  OptimizationConfig config;
-  config.task = "quadratic";
-  config.restarts = RestartScheme::Ipop;
-  config.keys = {"motion.walk.gait."};
+  OptimizationSettings settings;
+  settings.task = "quadratic";
+  settings.restarts = RestartScheme::Ipop;
+  settings.keys = {"motion.walk.gait."};
   Provenance origin;
   origin.task = "sprint";
   origin.fitness = 0.1;
   origin.seeds.add(4294967295U);
   origin.seeds.add(SeedDraw{7, 5, 16});
-  config.inherited.push_back(origin);
-  const auto text = config.toJson().dump();
-  EXPECT_EQ(OptimizationConfig::fromJson(nlohmann::json::parse(text)).toJson().dump(), text);
+  settings.inherited.push_back(origin);
+  const auto text = settings.toJson().dump();
+  EXPECT_EQ(OptimizationSettings::fromJson(nlohmann::json::parse(text)).toJson().dump(), text);
 }
 
 TEST(TrialSeeds, DifferBetweenGenerationsAndStreams) {

@@ -33,12 +33,12 @@ class Folder {
 };
 
 /// What the messages of a recording make our agent do, written as a log of ours.
-void record(const std::string& from, const std::string& to, const agent::AgentConfig& config,
+void record(const std::string& from, const std::string& to, const agent::AgentSettings& agentSettings,
             int dropEvery = 0) {
   protocol::LogReader reader(from);
-  protocol::LogWriter writer(to, agent::logHeader(config, "test"));
-  if (config.startPose) writer.comment(agent::startComment(*config.startPose));
-  agent::Session session({config, true});
+  protocol::LogWriter writer(to, agent::logHeader(agentSettings, "test"));
+  if (agentSettings.startPose) writer.comment(agent::startComment(*agentSettings.startPose));
+  agent::Session session({agentSettings, true});
   writer.sent(session.begin());
   protocol::LogLine line;
   int count = 0;
@@ -50,13 +50,13 @@ void record(const std::string& from, const std::string& to, const agent::AgentCo
   }
 }
 
-agent::AgentConfig someAgent() {
+agent::AgentSettings someAgent() {
   agent::AgentChoice choice;
   choice.unum = 7;
   choice.team = "Blue";
   choice.robotType = 3;
   choice.seed = 77;
-  return agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  return agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
 }
 
 TEST(Replay, RecordingsOfTheServerAreUnderstoodCompletely) {
@@ -77,20 +77,20 @@ TEST(Replay, RecordingsOfTheServerAreUnderstoodCompletely) {
 }
 
 TEST(Replay, FindsOutWhoRecordedAForeignLog) {
-  const agent::AgentConfig fromHandshake = agentOfLog(kData + "match_start.log.gz", settings());
+  const agent::AgentSettings fromHandshake = agentOfLog(kData + "match_start.log.gz", settings());
   EXPECT_EQ(fromHandshake.unum, 7);
   EXPECT_EQ(fromHandshake.team, "Blue");
   EXPECT_EQ(fromHandshake.robotType, 3);
-  const agent::AgentConfig fromArms = agentOfLog(kData + "crowd.log.gz", settings());
+  const agent::AgentSettings fromArms = agentOfLog(kData + "crowd.log.gz", settings());
   EXPECT_EQ(fromArms.unum, 1);
   EXPECT_EQ(fromArms.team, "Probe");
 }
 
 TEST(Replay, OwnLogsComeOutByteForByte) {
   const Folder folder;
-  agent::AgentConfig config = someAgent();
-  config.startPose = Pose2(-3.25, 1.5, 0.1);
-  record(kData + "match_start.log.gz", folder.file("own.zst"), config);
+  agent::AgentSettings agentSettings = someAgent();
+  agentSettings.startPose = Pose2(-3.25, 1.5, 0.1);
+  record(kData + "match_start.log.gz", folder.file("own.zst"), agentSettings);
   const ReplayReport report = replay(folder.file("own.zst"), settings());
   EXPECT_TRUE(report.own);
   EXPECT_EQ(report.counts.messages, 400);

@@ -42,7 +42,7 @@ TEST(SaveReport, ChallengeRepeatsTheSameTwelveShots) {
 
 TEST(SaveReport, DoesNotDependOnTheNumberOfThreadsAndSpeaksJson) {
   SaveReportSettings settings;
-  settings.goalie = agent::makeAgentConfig({}, NONET_SOURCE_DIR);
+  settings.goalie = agent::makeAgentSettings({}, NONET_SOURCE_DIR);
   settings.trials = 2;
   settings.quickSolver = true;
   settings.threads = 1;

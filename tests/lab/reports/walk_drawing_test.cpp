@@ -27,7 +27,7 @@ TEST(WalkDrawing, HasForwardAboveAndNamesTheType) {
 }
 
 TEST(WalkDrawing, OfACourseHasTimeAndUnits) {
-  const std::string svg = walkTraceSvg(agentTrialSetup(0), Pose2(10.0, 0.0, 0.0), 0.4);
+  const std::string svg = walkTraceSvg(agentTrialSettings(0), Pose2(10.0, 0.0, 0.0), 0.4);
   for (const char* text : {"robot type 0", ">time, s<", ">m<", ">deg<", ">desired<", ">measured<",
                            ">soles above the torso<", ">pitch, forward<", "class='tick'"})
     EXPECT_THAT(svg, HasSubstr(text));

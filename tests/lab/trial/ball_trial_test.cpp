@@ -15,10 +15,10 @@
 namespace nonet::lab {
 namespace {
 
-agent::AgentConfig agentOfType(int type) {
+agent::AgentSettings agentOfType(int type) {
   agent::AgentChoice choice;
   choice.robotType = type;
-  return agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  return agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
 }
 
 sim::Settings quick() {
@@ -42,7 +42,7 @@ TEST(BallTrial, DribblesTenMetres) {
 // The same lines with the steered dribble, whose learned values lie in params/: slower, but the ball is
 // hardly ever lost, which without it is the rule.
 TEST(BallTrial, SteeredDribbleKeepsTheBall) {
-  agent::AgentConfig steered = agentOfType(0);
+  agent::AgentSettings steered = agentOfType(0);
   steered.parameters.team.dribble.steer = true;
   double away = 0.0;
   double before = 0.0;
@@ -66,8 +66,8 @@ TEST(BallTrial, ComesToItsPlaceForAKick) {
 
 // The same passes with and without the behaviour: going to the line of the ball holds more of them.
 TEST(BallTrial, ReceivingHoldsMorePasses) {
-  agent::AgentConfig with = agentOfType(0);
-  agent::AgentConfig without = with;
+  agent::AgentSettings with = agentOfType(0);
+  agent::AgentSettings without = with;
   with.parameters.team.receive.use = true;
   without.parameters.team.receive.use = false;
   int held = 0;
@@ -90,7 +90,7 @@ TEST(BallTrial, RunsAndStops) {
 
 // Who does not move takes no duel.
 TEST(BallTrial, OneThatCannotWalkLosesTheDuel) {
-  agent::AgentConfig lame = agentOfType(0);
+  agent::AgentSettings lame = agentOfType(0);
   lame.parameters.motion.sets.goToTarget.gait.maxStepX = 0.001;
   lame.parameters.motion.sets.positioning.gait.maxStepX = 0.001;
   double won = 0.0;
@@ -98,7 +98,7 @@ TEST(BallTrial, OneThatCannotWalkLosesTheDuel) {
   EXPECT_GE(won, 2.5);
 }
 
-double goalsIn(const agent::AgentConfig& agent) {
+double goalsIn(const agent::AgentSettings& agent) {
   constexpr int count = 10;
   Defence defence{agentOfType(0), agentOfType(2)};
   for (motion::WalkParameters* set :
@@ -116,7 +116,7 @@ double goalsIn(const agent::AgentConfig& agent) {
 
 // The same attacks with and without kicks at the goal.
 TEST(BallTrial, ShotsEndMoreAttacksInTheGoal) {
-  agent::AgentConfig without = agentOfType(2);
+  agent::AgentSettings without = agentOfType(2);
   without.parameters.team.shot.distance = 0.0;
   const double shots = goalsIn(agentOfType(2));
   EXPECT_GE(shots, 0.4);  // 0.64 of 200
@@ -128,7 +128,7 @@ int chargesAtTheBall(double speed) {
   int charges = 0;
   Random random(7);
   for (int i = 0; i < 10; ++i) {
-    agent::AgentConfig runner = agentOfType(2);
+    agent::AgentSettings runner = agentOfType(2);
     runner.unum = 7;
     runner.parameters.team.charging.speed = speed;
     const Vector2 ball(random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0));

@@ -31,8 +31,8 @@ TaskSettings quickSettings() {
   return {.robotType = 0, .quickSolver = true, .dataFolder = NONET_SOURCE_DIR};
 }
 
-TrialSetup setupOf(const agent::AgentParameters& parameters, std::uint64_t seed) {
-  TrialSetup setup;
+TrialSettings setupOf(const agent::AgentParameters& parameters, std::uint64_t seed) {
+  TrialSettings setup;
   setup.motion = parameters.motion;
   setup.skillFolder = NONET_SOURCE_DIR "/skills";
   setup.seed = seed;
@@ -68,7 +68,7 @@ TEST(Course, HasEveryItemOnceInAnOrderOfItsSeed) {
 }
 
 TEST(Course, TheSameSeedGivesTheSameWalk) {
-  const TrialSetup setup = setupOf(initialParameters(), 3);
+  const TrialSettings setup = setupOf(initialParameters(), 3);
   const CourseResult first = runCourse(setup, 3, {});
   const CourseResult second = runCourse(setup, 3, {});
   EXPECT_EQ(first.reward, second.reward);
@@ -79,7 +79,7 @@ TEST(Course, TheSameSeedGivesTheSameWalk) {
 // It wanders off by more than half a field: goals, walls and the ball must be nowhere near, or it measures
 // collisions.
 TEST(Course, HasNothingToBumpInto) {
-  TrialSetup small = setupOf(initialParameters(), 3);
+  TrialSettings small = setupOf(initialParameters(), 3);
   small.physics.fieldLength = 6.0;
   small.physics.fieldWidth = 4.0;
   const CourseResult inside = runCourse(small, 3, {});
@@ -98,12 +98,12 @@ TEST(Course, ByTheClockEveryTargetIsReached) {
 }
 
 TEST(Course, AFallCostsWhatItIsSaidToCostAndTheLastOneEndsIt) {
-  const TrialSetup setup = setupOf(clumsyParameters(), 2);
-  CourseOptions options{.mostFalls = 3, .fallCost = 0.0};
-  const CourseResult free = runCourse(setup, 2, options);
+  const TrialSettings setup = setupOf(clumsyParameters(), 2);
+  CourseSettings settings{.mostFalls = 3, .fallCost = 0.0};
+  const CourseResult free = runCourse(setup, 2, settings);
   ASSERT_EQ(free.falls, 3);
-  options.fallCost = 20.0;
-  const CourseResult paid = runCourse(setup, 2, options);
+  settings.fallCost = 20.0;
+  const CourseResult paid = runCourse(setup, 2, settings);
   EXPECT_EQ(paid.falls, 3);
   EXPECT_NEAR(paid.reward, free.reward - 3 * 20.0, 1e-9);
   EXPECT_LT(paid.targets, 20) << "the rest of the course is not walked";
@@ -149,7 +149,7 @@ TEST(Sidestep, WalksTheTargetsWithAHeldHeadingOnly) {
     for (const CourseLeg& leg : item.legs) shifts += leg.kind == CourseLeg::Kind::Shift ? 1U : 0U;
   }
   const CourseResult result = runCourse(setupOf(initialParameters(), 7), 7,
-                                        {.items = CourseOptions::Items::HeldHeading, .untilReached = true});
+                                        {.items = CourseSettings::Items::HeldHeading, .untilReached = true});
   EXPECT_EQ(result.targets, static_cast<int>(shifts));
   EXPECT_EQ(result.reached, result.targets);
   EXPECT_EQ(result.stopDrift, 0.0) << "there is no stop among them";
@@ -164,7 +164,7 @@ TEST(Course, ANoisyTargetIsReachedSoonerWhenItIsAveraged) {
   double without = 0.0;
   double with = 0.0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const CourseOptions byTheClock{.untilReached = true};
+    const CourseSettings byTheClock{.untilReached = true};
     without += runCourse(setupOf(initialParameters(), seed), seed, byTheClock).time;
     with += runCourse(setupOf(averaging, seed), seed, byTheClock).time;
   }

@@ -13,7 +13,7 @@ namespace {
 
 GamePlayer player(const Pose2& X_WR, bool rightTeam = false, const Mind& mind = {}) {
   GamePlayer result;
-  result.agent = agent::makeAgentConfig({}, NONET_SOURCE_DIR);
+  result.agent = agent::makeAgentSettings({}, NONET_SOURCE_DIR);
   result.X_WR = X_WR;
   result.rightTeam = rightTeam;
   result.mind = mind;

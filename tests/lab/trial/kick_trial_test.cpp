@@ -16,7 +16,7 @@ namespace {
 // The ball still rolls away from the dribbler that has pushed it. Whoever begins the kick while it lies ahead
 // of its place meets it with the wrong part of the swing.
 TEST(Kicks, ReachABallThatTheRobotHasPushed) {
-  const agent::AgentConfig agent = agentOfType(2);
+  const agent::AgentSettings agent = agentOfType(2);
   sim::Settings server;
   server.quickSolver = true;
   constexpr int kKicks = 24;
@@ -37,7 +37,7 @@ TEST(Kicks, ReachABallThatTheRobotHasPushed) {
 
 // 60 degrees from where it faces, from every side that the robot comes from.
 TEST(Kicks, ToTheSideGoWhereTheyShould) {
-  const agent::AgentConfig agent = agentOfType(2);
+  const agent::AgentSettings agent = agentOfType(2);
   sim::Settings server;
   server.quickSolver = true;
   constexpr int kKicks = 20;

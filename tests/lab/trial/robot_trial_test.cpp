@@ -61,7 +61,7 @@ class RobotTrialSenses : public testing::TestWithParam<int> {};
 TEST_P(RobotTrialSenses, AreThoseOfTheSimulation) {
   const sim::Settings settings;
   Player player(settings, GetParam());
-  TrialSetup setup = agentTrialSetup(GetParam());
+  TrialSettings setup = agentTrialSettings(GetParam());
   setup.physics = settings.world();
   RobotTrial trial(setup);
   ASSERT_EQ(trial.robot(), player.robot());

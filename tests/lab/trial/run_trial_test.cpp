@@ -14,7 +14,7 @@ class Running : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, Running, testing::Range(0, model::kRobotTypeCount));
 
 TEST(Runs, OfTheSameSeedAreTheSame) {
-  TrialSetup setup = agentTrialSetup(2);
+  TrialSettings setup = agentTrialSettings(2);
   setup.physics.solver = sim::WorldSettings::Solver::Quick;
   EXPECT_EQ(runAhead(setup, 3).speed, runAhead(setup, 3).speed);
   EXPECT_NE(runAhead(setup, 3).speed, runAhead(setup, 4).speed);
@@ -22,7 +22,7 @@ TEST(Runs, OfTheSameSeedAreTheSame) {
 
 // Out of stands and walks, among pushes, and then a stop or another walk: hardly ever with a fall.
 TEST_P(Running, OutOfAnyWalkAndBackWithoutAFall) {
-  TrialSetup setup = agentTrialSetup(GetParam());
+  TrialSettings setup = agentTrialSettings(GetParam());
   setup.physics.solver = sim::WorldSettings::Solver::Quick;
   constexpr int kRuns = 20;
   int falls = 0;

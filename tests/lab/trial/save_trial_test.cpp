@@ -22,10 +22,10 @@ Shot shotFrom(const Vector2& place, const Vector3& velocity) {
           velocity};
 }
 
-agent::AgentConfig goalieOfType(int type) {
+agent::AgentSettings goalieOfType(int type) {
   agent::AgentChoice choice;
   choice.robotType = type;
-  return agent::makeAgentConfig(choice, NONET_SOURCE_DIR);
+  return agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
 }
 
 // Server facts 3.5: a ball that is set rolling at v0 without spin comes to rest after 0.677 s * v0, and rolls
@@ -103,7 +103,7 @@ TEST(Shots, AreDrawnWithinTheirRangesAndAreGoalsWithoutAGoalie) {
 
 // A share, not single saves: the goalie's noise decides each of them.
 TEST(Saves, MostShotsNearTheGoalieAreSavedAndItIsUpAgain) {
-  const agent::AgentConfig goalie = goalieOfType(0);
+  const agent::AgentSettings goalie = goalieOfType(0);
   sim::Settings settings;
   settings.quickSolver = true;
   Random random(11);
@@ -125,7 +125,7 @@ TEST(Saves, MostShotsNearTheGoalieAreSavedAndItIsUpAgain) {
 }
 
 TEST(Saves, SameSeedSameSave) {
-  const agent::AgentConfig goalie = goalieOfType(0);
+  const agent::AgentSettings goalie = goalieOfType(0);
   sim::Settings settings;
   settings.quickSolver = true;
   const Shot shot = shotFrom({-12.0, 0.5}, {-7.0, -1.5, 0.0});

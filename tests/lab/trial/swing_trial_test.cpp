@@ -27,9 +27,9 @@ class Swings : public testing::Test {
     scene.bearing = kickBearing(3 * i);
     return scene;
   }
-  static const agent::AgentConfig& agent() {
-    static const agent::AgentConfig config = agentOfType(kType);
-    return config;
+  static const agent::AgentSettings& agent() {
+    static const agent::AgentSettings settings = agentOfType(kType);
+    return settings;
   }
   static std::optional<KickStart> startOf(int i) {
     return kickStart(agent(), sim::Settings{}, sceneOf(i), static_cast<std::uint64_t>(i));
@@ -57,11 +57,11 @@ TEST_F(Swings, KickAsWholeTrialsDo) {
 // The ball has lain there long enough to be asleep, and some kicks touch it in one cycle only.
 TEST_F(Swings, AreTheSameOnBothSolversAndEveryTime) {
   for (const int type : {kType, 4}) {
-    const agent::AgentConfig config = agentOfType(type);
-    SwingTrial exact(config, sceneOf(0).kick, false);
-    SwingTrial quick(config, sceneOf(0).kick, true);
+    const agent::AgentSettings settings = agentOfType(type);
+    SwingTrial exact(settings, sceneOf(0).kick, false);
+    SwingTrial quick(settings, sceneOf(0).kick, true);
     for (int i = 0; i < 4; ++i) {
-      const auto start = kickStart(config, sim::Settings{}, sceneOf(i), static_cast<std::uint64_t>(i));
+      const auto start = kickStart(settings, sim::Settings{}, sceneOf(i), static_cast<std::uint64_t>(i));
       ASSERT_TRUE(start);
       const Kick first = exact.run(*start).kick;
       EXPECT_EQ(exact.run(*start).kick.forward, first.forward);

@@ -12,8 +12,8 @@ namespace {
 
 using motion::MotionRequest;
 
-TrialSetup setupFor(int type) {
-  TrialSetup setup;
+TrialSettings setupFor(int type) {
+  TrialSettings setup;
   setup.robotType = type;
   setup.skillFolder = NONET_SOURCE_DIR "/skills";
   setup.motion.skills = motion::declareSkillParameters(setup.skillFolder);
@@ -39,7 +39,7 @@ TEST_P(EveryType, StandsStill) {
 
 // With the learned sets: gains that steady the walk must not set a stand swinging.
 TEST_P(EveryType, ComesToRestInItsStand) {
-  RobotTrial trial(agentTrialSetup(GetParam()));
+  RobotTrial trial(agentTrialSettings(GetParam()));
   trial.settle(Pose2());
   trial.run(velocity(0.3, 0.1, 0.0), 1.0);
   trial.run(MotionRequest{}, 10.0);
@@ -82,7 +82,7 @@ TEST_P(EveryType, WalksForwardSidewaysAndTurns) {
 }
 
 TEST_P(EveryType, StaysUpThroughQuickChanges) {
-  TrialSetup setup = setupFor(GetParam());
+  TrialSettings setup = setupFor(GetParam());
   RobotTrial trial(setup);
   trial.settle(Pose2());
   Random random(21);

@@ -23,8 +23,8 @@
 namespace nonet::sim::test {
 namespace {
 
-ServerOptions lockStep() {
-  ServerOptions options;
+ServerSettings lockStep() {
+  ServerSettings options;
   options.address = "127.0.0.1";
   options.agentPort = 0;
   options.monitorPort = 0;
@@ -36,7 +36,7 @@ ServerOptions lockStep() {
 // A server that runs in its own thread until the end of the test.
 class Running {
  public:
-  explicit Running(const ServerOptions& options = lockStep(), const Settings& settings = {},
+  explicit Running(const ServerSettings& options = lockStep(), const Settings& settings = {},
                    std::uint64_t seed = 1)
       : server(settings, seed, options), thread_([this] {
           server.run();
@@ -83,7 +83,7 @@ std::string play(std::uint16_t port, int type, int unum, std::string_view team, 
 
 TEST(ServerStart, ATakenPortIsNamed) {
   const Running first;
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.agentPort = first.server.agentPort();
   const std::string port = std::to_string(options.agentPort);
   try {
@@ -132,7 +132,7 @@ TEST(LockStep, OneAgentGetsEveryCycle) {
 }
 
 TEST(LockStep, SilenceStopsTheClockUntilTheTimeOut) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.answerTimeout = 0.5;
   Running running(options);
   Client silent(running.server.agentPort());
@@ -186,7 +186,7 @@ std::string answerOf(std::size_t who, int cycle) {
 }
 
 std::vector<std::string> matchOverTcp(const std::vector<std::size_t>& arrival, int cycles) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.players = static_cast<int>(kTeams.size());
   const Running running(options, Settings{}, 7);
   std::vector<std::string> logs(kTeams.size());
@@ -253,7 +253,7 @@ TEST(LockStep, AMatchIsTheSameWhateverTheOrderOfArrivalAndInProcess) {
 }
 
 TEST(LockStep, EighteenAgentsAtOnce) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.players = 18;
   Running running(options);
   std::vector<std::thread> threads;
@@ -272,7 +272,7 @@ TEST(LockStep, EighteenAgentsAtOnce) {
 }
 
 TEST(LockStep, AnOrdinaryLateComerMayJoinAReproducibleMatch) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.players = 1;
   const Running running(options);
   std::thread first([&] { play(running.server.agentPort(), 0, 1, "A", 300); });
@@ -345,7 +345,7 @@ TEST(BadClient, VanishesInTheMiddleOfAMessage) {
 }
 
 TEST(BadClient, StopsReadingAndAnswering) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.answerTimeout = 0.2;
   Running running(options);
   Client stopped(running.server.agentPort());
@@ -359,7 +359,7 @@ TEST(BadClient, StopsReadingAndAnswering) {
 }
 
 TEST(BadClient, ASlowReaderLosesWholeMessagesOnly) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.answerTimeout = 0.1;
   Running running(options);
   Client slow(running.server.agentPort());
@@ -427,7 +427,7 @@ TEST(Monitor, KillsimEndsTheServerAndKillRemovesARobot) {
 }
 
 TEST(RealTime, KeepsTheClock) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.lockStep = false;
   options.realTime = true;
   const Running running(options);
@@ -443,7 +443,7 @@ TEST(RealTime, KeepsTheClock) {
 // All robots are built at the same place: without turns they would stand in each other, and a cycle take
 // seconds.
 TEST(RealTime, ManyThatComeAtOnceAreBornOneAfterTheOther) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.lockStep = false;
   options.realTime = true;
   const Running running(options);
@@ -473,7 +473,7 @@ TEST(RealTime, ManyThatComeAtOnceAreBornOneAfterTheOther) {
 }
 
 TEST(Match, EndsTheServerWhenAsked) {
-  ServerOptions options = lockStep();
+  ServerSettings options = lockStep();
   options.endWithMatch = true;
   options.players = 1;
   Settings settings;

@@ -17,7 +17,7 @@
 namespace nonet::lab {
 
 struct EnvSettings {
-  agent::AgentConfig agent;
+  agent::AgentSettings agent;
   sim::Settings server;
 };
 

@@ -19,7 +19,7 @@
 
 namespace nonet::lab {
 
-struct TeamChoice {
+struct TeamSettings {
   std::string name;
   int players = 9;  // numbers 1 to players; 0: the team stays away
   std::vector<std::string> parameterFiles;
@@ -27,9 +27,9 @@ struct TeamChoice {
   std::vector<std::string> assignments;  // single parameters, set last
 };
 
-struct MatchChoice {
-  TeamChoice left{"Nonet", 9, {}, {}, {}};
-  TeamChoice right{"Guests", 9, {}, {}, {}};
+struct MatchSettings {
+  TeamSettings left{"Nonet", 9, {}, {}, {}};
+  TeamSettings right{"Guests", 9, {}, {}, {}};
   std::uint64_t seed = 1;
   double minutes = 10.0;   // of game time in all, two halves
   double kickOffWait = 5;  // s of simulated time before each half, to take one's place
@@ -39,13 +39,13 @@ struct MatchChoice {
 };
 
 /// Who plays, for people.
-std::string matchTitle(const MatchChoice& choice);
+std::string matchTitle(const MatchSettings& choice);
 
 /// The settings of a match as chosen: half time, automatic kick-off, names of the teams.
-sim::Settings matchSettings(const MatchChoice& choice);
+sim::Settings matchSettings(const MatchSettings& choice);
 
 /// One robot's agent as chosen.
-agent::AgentChoice agentChoice(const MatchChoice& choice, bool rightTeam, int unum);
+agent::AgentChoice agentChoice(const MatchSettings& choice, bool rightTeam, int unum);
 
 /// What happened to one player.
 struct PlayerRecord {
@@ -91,7 +91,7 @@ struct MatchResult {
 /// Watches a simulation cycle by cycle. Needs nothing of the agents.
 class MatchWatcher {
  public:
-  explicit MatchWatcher(const MatchChoice& choice);
+  explicit MatchWatcher(const MatchSettings& choice);
 
   void update(const sim::Simulation& simulation);
   /// So far.
@@ -129,7 +129,7 @@ struct MatchObservers {
 };
 
 /// Plays a match in this process. The result does not depend on `threads`.
-MatchResult playInProcess(const MatchChoice& choice, const std::string& dataFolder, int threads,
+MatchResult playInProcess(const MatchSettings& choice, const std::string& dataFolder, int threads,
                           const MatchObservers& observers = {});
 
 }  // namespace nonet::lab

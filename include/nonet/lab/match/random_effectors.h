@@ -13,7 +13,7 @@
 
 namespace nonet::lab {
 
-struct RandomEffectorsChoice {
+struct RandomEffectorsSettings {
   std::uint64_t seed = 1;
   int players = 4;       // a side, 1..11
   double minutes = 1.0;  // of the server's time
@@ -34,7 +34,7 @@ struct RandomEffectorsResult {
 
 /// `goOn` is asked in every cycle with what has happened so far; false ends the run.
 RandomEffectorsResult playRandomEffectors(
-    const RandomEffectorsChoice& choice,
+    const RandomEffectorsSettings& settings,
     const std::function<bool(const RandomEffectorsResult&)>& goOn = [](const auto&) { return true; });
 
 }  // namespace nonet::lab

@@ -1,6 +1,6 @@
 // A series of paired games as a folder:
 //
-//   series.json    what is played (series_choice.h)
+//   series.json    what is played (series_settings.h)
 //   matches.jsonl  one line per game: score and statistics, nothing that depends on the machine's speed
 //   times.jsonl    one line per game: what does depend on it (wall and processor time)
 //   result.json    wins, goal difference with its interval, verdict; written at the end
@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "nonet/lab/match/series_choice.h"
+#include "nonet/lab/match/series_settings.h"
 
 namespace nonet::lab {
 
@@ -53,18 +53,18 @@ struct SeriesResult {
   double logLikelihoodRatio = 0.0;
   std::vector<double> pairs;  // value of each, goals per ten minutes
 
-  nlohmann::ordered_json toJson(const SeriesChoice& choice) const;
-  std::string toText(const SeriesChoice& choice) const;
+  nlohmann::ordered_json toJson(const SeriesSettings& settings) const;
+  std::string toText(const SeriesSettings& settings) const;
 };
 
 class Series {
  public:
   /// Begins or resumes the series in the folder. Resuming takes the number of pairs and the test from
-  /// `choice` and demands that the games are the same. Throws std::runtime_error: other games in the folder,
-  /// another process works on it, damaged files.
-  Series(const std::string& folder, const SeriesChoice& choice);
+  /// `settings` and demands that the games are the same. Throws std::runtime_error: other games in the
+  /// folder, another process works on it, damaged files.
+  Series(const std::string& folder, const SeriesSettings& settings);
 
-  const SeriesChoice& choice() const { return choice_; }
+  const SeriesSettings& settings() const { return settings_; }
   const std::string& folder() const { return folder_; }
   /// Indices (gameOf()) of games that are to be played, in order; empty when all are, or the test has
   /// decided.
@@ -83,7 +83,7 @@ class Series {
 
   std::string folder_;
   std::shared_ptr<void> lock_;
-  SeriesChoice choice_;
+  SeriesSettings settings_;
   std::map<int, GameRecord> records_;  // by index
 };
 
@@ -98,7 +98,7 @@ struct SeriesProgress {
   double secondsLeft = 0.0;  // wall time at the present speed; below 0: not known yet
   SeriesResult result;
 
-  std::string line(const SeriesChoice& choice) const;
+  std::string line(const SeriesSettings& settings) const;
 };
 
 /// Plays what is open, `jobs` games at a time, each in a thread of its own. `watch` is called a few times a
@@ -108,7 +108,7 @@ bool playSeries(Series& series, int jobs, const PlayGame& play,
                 const std::function<bool(const SeriesProgress&)>& watch);
 
 /// Plays games in this process, one thread each.
-PlayGame inProcessGames(const SeriesChoice& choice, const std::string& overlayFolder,
+PlayGame inProcessGames(const SeriesSettings& settings, const std::string& overlayFolder,
                         const std::string& dataFolder);
 
 }  // namespace nonet::lab

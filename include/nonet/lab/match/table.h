@@ -28,9 +28,9 @@ namespace nonet::lab {
 
 struct TableSettings {
   std::string title;
-  std::vector<SideChoice> sides;
+  std::vector<SideSettings> sides;
   std::optional<std::size_t> against;  // index of the one against all; empty: everybody against everybody
-  SeriesChoice games;                  // what all entries share: all but the sides
+  SeriesSettings games;                // what all entries share: all but the sides
 };
 
 /// Throws std::runtime_error that names file and line, or the key that is wrong. Paths in the file are seen
@@ -46,7 +46,7 @@ struct TableEntry {
 
 /// All entries, nothing played yet.
 std::vector<TableEntry> tableEntries(const TableSettings& table);
-SeriesChoice seriesOf(const TableSettings& table, const TableEntry& entry);
+SeriesSettings seriesOf(const TableSettings& table, const TableEntry& entry);
 
 /// Goal difference per ten minutes with standard error, games won, tied and lost.
 std::string tableText(const TableSettings& table, const std::vector<TableEntry>& entries);

@@ -1,5 +1,5 @@
-// One optimization as a folder: config.json (what is optimized, with every seed), generations.jsonl (one line
-// each: every point, every seed, every value), checkpoint.json (written to a new file, then renamed),
+// One optimization as a folder: settings.json (what is optimized, with every seed), generations.jsonl (one
+// line each: every point, every seed, every value), checkpoint.json (written to a new file, then renamed),
 // best.toml (the best parameters so far with their provenance). A run that is killed at any point and resumed
 // ends in the same bytes as one that was not.
 #pragma once
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nonet/lab/optimize/optimization_config.h"
+#include "nonet/lab/optimize/optimization_settings.h"
 
 namespace nonet::lab {
 
@@ -26,20 +26,20 @@ struct GenerationReport {
 class OptimizationRun {
  public:
   /// A new run; throws std::runtime_error if the folder holds one already, another process works on it, or
-  /// the config makes no search (a step size of 0, a population of 1).
-  static OptimizationRun create(const std::string& folder, const OptimizationConfig& config,
+  /// the settings makes no search (a step size of 0, a population of 1).
+  static OptimizationRun create(const std::string& folder, const OptimizationSettings& settings,
                                 const std::string& dataFolder);
   /// What the run in the folder was started with. Throws std::runtime_error that names the file.
-  static OptimizationConfig readConfig(const std::string& folder);
+  static OptimizationSettings readSettings(const std::string& folder);
   /// Continues the one in the folder; `generations` extends it. Throws std::runtime_error.
   static OptimizationRun resume(const std::string& folder, const std::string& dataFolder,
                                 std::optional<int> generations);
 
   /// One generation; false when all are done or CMA-ES has converged. The evaluator's objective must be
-  /// makeObjective(config(), dataFolder).
+  /// makeObjective(settings(), dataFolder).
   bool step(Evaluator& evaluator, GenerationReport& report);
 
-  const OptimizationConfig& config() const { return config_; }
+  const OptimizationSettings& settings() const { return settings_; }
   const SearchSpace& space() const { return space_; }
   const RestartingCmaEs& optimizer() const { return optimizer_; }
   int generation() const { return generation_; }
@@ -48,7 +48,7 @@ class OptimizationRun {
  private:
   using Values = std::vector<std::vector<double>>;  // [candidate][trial]
 
-  OptimizationRun(std::string folder, const OptimizationConfig& config, std::string dataFolder);
+  OptimizationRun(std::string folder, const OptimizationSettings& settings, std::string dataFolder);
   Values evaluate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& points,
                   const std::vector<std::uint64_t>& seeds);
   Values evaluateGeneration(Evaluator& evaluator, const Eigen::MatrixXd& points,
@@ -65,7 +65,7 @@ class OptimizationRun {
 
   std::string folder_;
   std::shared_ptr<void> lock_;  // one process per folder: a rank that outlives mpirun would write too
-  OptimizationConfig config_;
+  OptimizationSettings settings_;
   std::string dataFolder_;
   SearchSpace space_;
   RestartingCmaEs optimizer_;

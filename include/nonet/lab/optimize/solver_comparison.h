@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "nonet/lab/optimize/optimization_config.h"
+#include "nonet/lab/optimize/optimization_settings.h"
 
 namespace nonet::lab {
 
@@ -19,9 +19,9 @@ struct SolverComparison {
   double quickSeconds = 0.0;
 };
 
-/// `sets` points around the start of the config: normal with its sigma, each with its own spread of 0.2
-/// to 1.5 sigma so that good and bad ones are among them, all on the same `config.trials` seeds.
-SolverComparison compareSolvers(const OptimizationConfig& config, int sets, const std::string& dataFolder,
+/// `sets` points around the start of the settings: normal with its sigma, each with its own spread of 0.2
+/// to 1.5 sigma so that good and bad ones are among them, all on the same `settings.trials` seeds.
+SolverComparison compareSolvers(const OptimizationSettings& settings, int sets, const std::string& dataFolder,
                                 int threads);
 
 }  // namespace nonet::lab

@@ -13,11 +13,11 @@
 namespace nonet::lab {
 
 struct BallReportSettings {
-  agent::AgentConfig agent;
-  agent::AgentConfig opponent;  // in the duel and before the goal
-  agent::AgentConfig goalie;    // the opponents'
-  std::string skill = "all";    // or one of ballSkillNames()
-  int trials = 50;              // of each skill
+  agent::AgentSettings agent;
+  agent::AgentSettings opponent;  // in the duel and before the goal
+  agent::AgentSettings goalie;    // the opponents'
+  std::string skill = "all";      // or one of ballSkillNames()
+  int trials = 50;                // of each skill
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors
   bool quickSolver = false;

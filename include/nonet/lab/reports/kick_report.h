@@ -12,7 +12,7 @@
 namespace nonet::lab {
 
 struct KickReportSettings {
-  agent::AgentConfig agent;
+  agent::AgentSettings agent;
   std::string kick = "all";  // name, "all", or "any": what motion chooses by itself
   int trials = 100;          // of each kick
   double start = 0.5;        // m from the ball
@@ -46,7 +46,7 @@ struct KickStatistics {
 };
 
 /// Names of the kicks that this robot can do. Throws motion::SkillError.
-std::vector<std::string> kickNames(const agent::AgentConfig& agent);
+std::vector<std::string> kickNames(const agent::AgentSettings& agent);
 
 /// One entry per kick. Throws std::runtime_error for a kick that this robot cannot do.
 std::vector<KickStatistics> measureKicks(const KickReportSettings& settings);

@@ -87,6 +87,6 @@ struct ReplayReport {
 ReplayReport replay(const std::string& path, const ReplaySettings& settings);
 
 /// The agent's configuration as the log tells it. Throws protocol::LogError.
-agent::AgentConfig agentOfLog(const std::string& path, const ReplaySettings& settings);
+agent::AgentSettings agentOfLog(const std::string& path, const ReplaySettings& settings);
 
 }  // namespace nonet::lab

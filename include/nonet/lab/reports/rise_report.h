@@ -12,7 +12,7 @@
 namespace nonet::lab {
 
 struct RiseReportSettings {
-  TrialSetup setup;
+  TrialSettings setup;
   int falls = 100;  // of each kind
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it

@@ -12,7 +12,7 @@
 namespace nonet::lab {
 
 struct SaveReportSettings {
-  agent::AgentConfig goalie;
+  agent::AgentSettings goalie;
   int trials = 500;          // of each kind
   bool quickSolver = false;  // of the trials; what counts as a shot is always found on the exact world
   int challenge =

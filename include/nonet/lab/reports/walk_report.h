@@ -19,7 +19,7 @@ namespace nonet::lab {
 inline constexpr int kWalkDirections = 16;  // every 22.5 degrees, counter-clockwise from forward
 
 struct WalkReportSettings {
-  TrialSetup setup;
+  TrialSettings setup;
   int trials = 10;  // per measure
   std::uint64_t seed = 1;
   int courses = 0;                      // obstacle courses of a minute to walk (target_course.h), in process
@@ -53,6 +53,6 @@ std::string walkReportJson(const WalkReport& report);
 std::string walkReportSvg(const WalkReport& report);
 
 /// A plot of some steps: desired and measured centre of mass, feet, tilt of the torso.
-std::string walkTraceSvg(const TrialSetup& setup, const Pose2& velocity, double seconds);
+std::string walkTraceSvg(const TrialSettings& setup, const Pose2& velocity, double seconds);
 
 }  // namespace nonet::lab

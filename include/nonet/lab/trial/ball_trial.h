@@ -25,30 +25,30 @@ struct Approach : TrialCost {
   double time = 0.0;     // s [the longest]
 };
 /// From 1.5 m, the ball between robot and target in any direction, rolling up to 1 m/s in any direction.
-Approach approachOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed);
+Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
 
 struct Dribble : TrialCost, DribbleResult {
   BallPath path;
   BallTrack track;
 };
 /// 10 m straight ahead.
-Dribble dribbleOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed);
+Dribble dribbleOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
 /// Six turns of 60 degrees, 2 m apart; every other trial begins to the other side.
-Dribble slalomOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed);
+Dribble slalomOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
 
 struct Drive : TrialCost {
   double gained = 0.0;  // m nearer to the goal; a goal: the whole way times time allowed / time taken
   bool goal = false;
 };
 /// Alone, with everything that its team stage does, for 15 s from anywhere [MacAlpine 2012a, section 4.3].
-Drive driveOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed);
+Drive driveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
 
 struct Duel : TrialCost {
   double won =
       0.5;  // 1: the ball came 2 m towards the other goal first; 0: towards the own one; 0.5: neither
 };
 /// The ball 0.5 m from both; the opponent is a whole agent too.
-Duel duelOnce(const agent::AgentConfig& agent, const agent::AgentConfig& opponent,
+Duel duelOnce(const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
               const sim::Settings& settings, std::uint64_t seed);
 
 struct Attack : TrialCost {
@@ -60,12 +60,12 @@ struct Attack : TrialCost {
 };
 /// Who plays against the one that attacks.
 struct Defence {
-  agent::AgentConfig goalie;
-  agent::AgentConfig back;
+  agent::AgentSettings goalie;
+  agent::AgentSettings back;
 };
 /// One with the ball 2.5 to 6 m before the goal, against a goalie and two backs that stand nearer to it, 25
 /// s.
-Attack attackOnce(const agent::AgentConfig& agent, const Defence& defence, const sim::Settings& settings,
+Attack attackOnce(const agent::AgentSettings& agent, const Defence& defence, const sim::Settings& settings,
                   std::uint64_t seed);
 
 struct Reception : TrialCost, ReceiveResult {
@@ -73,12 +73,12 @@ struct Reception : TrialCost, ReceiveResult {
   double aside = 0.0;  // m, by how much it would pass the robot
 };
 /// A pass from 3 m, 1 to 3 m/s fast a metre before the robot, up to 0.4 m beside it.
-Reception receiveOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed);
+Reception receiveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
 
 struct Run : TrialCost {
   double speed = 0.0;     // m/s, mean of 3 s beyond 3 m of way
   double stopTime = 0.0;  // s, from the order to a stand
 };
-Run runOnce(const agent::AgentConfig& agent, const sim::Settings& settings, std::uint64_t seed);
+Run runOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
 
 }  // namespace nonet::lab

@@ -26,6 +26,6 @@ struct Dive {
 };
 
 /// Plays the skill `name` to this side. The same seed always gives the same dive.
-Dive diveAndRise(const TrialSetup& setup, std::string_view name, model::Side side, std::uint64_t seed);
+Dive diveAndRise(const TrialSettings& setup, std::string_view name, model::Side side, std::uint64_t seed);
 
 }  // namespace nonet::lab

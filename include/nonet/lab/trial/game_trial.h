@@ -29,7 +29,7 @@ using Mind = std::function<team::Action(const world::WorldState&, const motion::
 struct GamePlayer {
   /// Body, number and parameters. Number 0 gets the next free one; name of the team, seed and start pose are
   /// the trial's.
-  agent::AgentConfig agent;
+  agent::AgentSettings agent;
   bool rightTeam = false;
   Pose2 X_WR;  // where it begins
   Mind mind;   // empty: the agent's own team stage

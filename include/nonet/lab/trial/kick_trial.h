@@ -37,7 +37,7 @@ struct Kick {
 };
 
 /// The same arguments always give the same kick.
-Kick kickOnce(const agent::AgentConfig& agent, const sim::Settings& settings, const KickScene& scene,
+Kick kickOnce(const agent::AgentSettings& agent, const sim::Settings& settings, const KickScene& scene,
               std::uint64_t seed);
 
 /// Ten bearings on a half circle, one after the other.

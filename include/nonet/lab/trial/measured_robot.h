@@ -25,7 +25,7 @@ class MeasuredRobot {
 };
 
 /// On the in-process physics.
-std::unique_ptr<MeasuredRobot> makeMeasuredRobot(const TrialSetup& setup);
+std::unique_ptr<MeasuredRobot> makeMeasuredRobot(const TrialSettings& setup);
 
 struct ServerAddress {
   std::string host = "127.0.0.1";
@@ -36,6 +36,6 @@ struct ServerAddress {
 /// On any server, embedded or real, in lock-step or real time; the true pose comes from its monitor stream.
 /// The server must be otherwise empty. Throws std::runtime_error that names the address when it cannot be
 /// reached or refuses.
-std::unique_ptr<MeasuredRobot> connectMeasuredRobot(const TrialSetup& setup, const ServerAddress& address);
+std::unique_ptr<MeasuredRobot> connectMeasuredRobot(const TrialSettings& setup, const ServerAddress& address);
 
 }  // namespace nonet::lab

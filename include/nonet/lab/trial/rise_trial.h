@@ -21,6 +21,6 @@ struct Rise {
 
 /// Front and back: the robot is tipped over while it stands or walks, in a random direction about the wanted
 /// one, with random joint angles. Side: the goalie's dive. The same seed always gives the same fall.
-Rise fallAndRise(const TrialSetup& setup, FallKind kind, std::uint64_t seed);
+Rise fallAndRise(const TrialSettings& setup, FallKind kind, std::uint64_t seed);
 
 }  // namespace nonet::lab

@@ -17,16 +17,16 @@
 
 namespace nonet::lab {
 
-struct TrialSetup : agent::RobotConfig {
+struct TrialSettings : agent::RobotSettings {
   sim::WorldSettings physics;
 };
 
 /// The body and mind of that agent, on the exact physics.
-TrialSetup trialSetup(const agent::AgentConfig& config);
+TrialSettings trialSettings(const agent::AgentSettings& settings);
 
 class RobotTrial {
  public:
-  explicit RobotTrial(const TrialSetup& setup);
+  explicit RobotTrial(const TrialSettings& setup);
   ~RobotTrial();
 
   /// Puts the robot there, upright, at rest, a little above the ground, joints as they are (field = world

@@ -20,6 +20,6 @@ struct RunOutcome {
 };
 
 /// The same seed always gives the same run.
-RunOutcome runAhead(const TrialSetup& setup, std::uint64_t seed);
+RunOutcome runAhead(const TrialSettings& setup, std::uint64_t seed);
 
 }  // namespace nonet::lab

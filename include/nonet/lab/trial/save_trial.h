@@ -60,7 +60,7 @@ struct Save {
 };
 
 /// The same arguments always give the same save.
-Save saveOnce(const agent::AgentConfig& goalie, const sim::Settings& settings, const Shot& shot,
+Save saveOnce(const agent::AgentSettings& goalie, const sim::Settings& settings, const Shot& shot,
               std::uint64_t seed);
 
 }  // namespace nonet::lab

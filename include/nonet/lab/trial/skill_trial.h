@@ -14,7 +14,7 @@
 namespace nonet::lab {
 
 struct SkillTrialSettings {
-  agent::AgentConfig agent;  // its type, parameters and skill folder
+  agent::AgentSettings agent;  // its type, parameters and skill folder
   std::string skill;
   bool mirrored = false;        // left and right exchanged
   std::optional<Vector2> ball;  // from the torso, m; empty: where a kick wants it, or far away

@@ -26,7 +26,7 @@ struct KickStart {
 };
 
 /// The start of a whole trial's kick; nothing if it did not come to it.
-std::optional<KickStart> kickStart(const agent::AgentConfig& agent, const sim::Settings& settings,
+std::optional<KickStart> kickStart(const agent::AgentSettings& agent, const sim::Settings& settings,
                                    const KickScene& scene, std::uint64_t seed);
 
 struct Swing {
@@ -39,7 +39,7 @@ struct Swing {
 class SwingTrial {
  public:
   /// `kick` names a skill with the head of a kick. Throws std::runtime_error if there is none.
-  SwingTrial(const agent::AgentConfig& agent, const std::string& kick, bool quickSolver);
+  SwingTrial(const agent::AgentSettings& agent, const std::string& kick, bool quickSolver);
   ~SwingTrial();
 
   /// When the kick has another place for the ball now than when the start was stored, the ball is moved by

@@ -51,7 +51,7 @@ struct CourseResult {
   double unsteadiness = 0.0;
 };
 
-struct CourseOptions {
+struct CourseSettings {
   enum class Items : std::uint8_t {
     All,
     HeldHeading,  // only those of sidesteps and backward steps
@@ -67,7 +67,7 @@ struct CourseOptions {
   bool changeSets = false;
 };
 
-CourseResult runCourse(const TrialSetup& setup, std::uint64_t seed, const CourseOptions& options);
+CourseResult runCourse(const TrialSettings& setup, std::uint64_t seed, const CourseSettings& settings);
 
 /// What a parameter set makes of many courses.
 struct CourseSummary {
@@ -81,7 +81,7 @@ struct CourseSummary {
 };
 
 /// The seeds of the courses follow from `seed`; threads 0: all processors.
-CourseSummary measureCourses(const TrialSetup& setup, std::uint64_t seed, int courses, int threads,
+CourseSummary measureCourses(const TrialSettings& setup, std::uint64_t seed, int courses, int threads,
                              const TrialProgress& progress = {});
 
 }  // namespace nonet::lab

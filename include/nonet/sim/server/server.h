@@ -13,7 +13,7 @@
 
 namespace nonet::sim {
 
-struct ServerOptions {
+struct ServerSettings {
   /// To listen on: this machine only, since whoever reaches the trainer's port is obeyed.
   std::string address = "127.0.0.1";
   std::uint16_t agentPort = 3100;  // 0: any free one, see Server::agentPort()
@@ -36,7 +36,7 @@ struct ServerOptions {
 class Server {
  public:
   /// Opens both ports. Throws std::runtime_error naming the port if one is taken, or the log file.
-  Server(const Settings& settings, std::uint64_t seed, const ServerOptions& options);
+  Server(const Settings& settings, std::uint64_t seed, const ServerSettings& options);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

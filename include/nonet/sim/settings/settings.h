@@ -1,6 +1,6 @@
 // Everything about a simulation that can be chosen: the Soccer variables of the server's script under their
 // own names and with their own defaults (server facts 4.1), and what other tools switch by editing the script
-// (noise, ground truth, solver). A process (ports, pace, lock-step) is chosen in ServerOptions.
+// (noise, ground truth, solver). A process (ports, pace, lock-step) is chosen in ServerSettings.
 #pragma once
 
 #include <string>

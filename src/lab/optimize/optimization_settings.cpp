@@ -1,4 +1,4 @@
-#include "nonet/lab/optimize/optimization_config.h"
+#include "nonet/lab/optimize/optimization_settings.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -33,7 +33,7 @@ std::string nameOf(RestartScheme scheme) {
   return "none";
 }
 
-json OptimizationConfig::toJson() const {
+json OptimizationSettings::toJson() const {
   json origins = json::array();
   for (const Provenance& origin : inherited) origins.push_back(origin.toJson());
   return {{"task", task},
@@ -55,40 +55,40 @@ json OptimizationConfig::toJson() const {
           {"version", version}};
 }
 
-OptimizationConfig OptimizationConfig::fromJson(const json& value) {
-  OptimizationConfig config;
-  value.at("task").get_to(config.task);
-  value.at("robotType").get_to(config.robotType);
-  value.at("quickSolver").get_to(config.quickSolver);
-  value.at("seed").get_to(config.seed);
-  value.at("population").get_to(config.population);
-  value.at("generations").get_to(config.generations);
-  value.at("sigma").get_to(config.sigma);
-  value.at("trials").get_to(config.trials);
-  value.at("racing").get_to(config.racing);
-  value.at("validationEvery").get_to(config.validationEvery);
-  value.at("validationTrials").get_to(config.validationTrials);
-  config.restarts = restartSchemeOf(value.at("restarts").get<std::string>());
-  value.at("keys").get_to(config.keys);
-  value.at("parameters").get_to(config.parameters);
-  for (const json& origin : value.at("inherited")) config.inherited.push_back(Provenance::fromJson(origin));
-  value.at("date").get_to(config.date);
-  value.at("version").get_to(config.version);
-  return config;
+OptimizationSettings OptimizationSettings::fromJson(const json& value) {
+  OptimizationSettings settings;
+  value.at("task").get_to(settings.task);
+  value.at("robotType").get_to(settings.robotType);
+  value.at("quickSolver").get_to(settings.quickSolver);
+  value.at("seed").get_to(settings.seed);
+  value.at("population").get_to(settings.population);
+  value.at("generations").get_to(settings.generations);
+  value.at("sigma").get_to(settings.sigma);
+  value.at("trials").get_to(settings.trials);
+  value.at("racing").get_to(settings.racing);
+  value.at("validationEvery").get_to(settings.validationEvery);
+  value.at("validationTrials").get_to(settings.validationTrials);
+  settings.restarts = restartSchemeOf(value.at("restarts").get<std::string>());
+  value.at("keys").get_to(settings.keys);
+  value.at("parameters").get_to(settings.parameters);
+  for (const json& origin : value.at("inherited")) settings.inherited.push_back(Provenance::fromJson(origin));
+  value.at("date").get_to(settings.date);
+  value.at("version").get_to(settings.version);
+  return settings;
 }
 
-std::vector<std::string> OptimizationConfig::searchedKeys() const {
+std::vector<std::string> OptimizationSettings::searchedKeys() const {
   return keys.empty() ? findTask(task).searchedKeys() : keys;
 }
 
-agent::AgentParameters OptimizationConfig::startParameters(const std::string& dataFolder) const {
+agent::AgentParameters OptimizationSettings::startParameters(const std::string& dataFolder) const {
   agent::AgentParameters start = defaultParameters(dataFolder);
   config::overlayText(start, parameters, "start parameters of the run");
   findTask(task).prepare(start);
   return start;
 }
 
-TaskSettings OptimizationConfig::taskSettings(const std::string& dataFolder) const {
+TaskSettings OptimizationSettings::taskSettings(const std::string& dataFolder) const {
   return {.robotType = robotType, .quickSolver = quickSolver, .dataFolder = dataFolder};
 }
 
@@ -99,24 +99,25 @@ agent::AgentParameters defaultParameters(const std::string& dataFolder) {
   return defaults;
 }
 
-void setStart(OptimizationConfig& config, const std::string& dataFolder,
+void setStart(OptimizationSettings& settings, const std::string& dataFolder,
               const std::vector<std::string>& files) {
   agent::AgentParameters start = defaultParameters(dataFolder);
-  config.inherited.clear();
+  settings.inherited.clear();
   const auto overlay = [&](const std::string& file) {
     config::overlayFile(start, file);
-    for (const Provenance& origin : readProvenance(file)) replaceProvenance(config.inherited, origin);
+    for (const Provenance& origin : readProvenance(file)) replaceProvenance(settings.inherited, origin);
   };
-  const std::string typeFile = fmt::format("{}/params/type{}.toml", dataFolder, config.robotType);
+  const std::string typeFile = fmt::format("{}/params/type{}.toml", dataFolder, settings.robotType);
   if (std::filesystem::exists(typeFile)) overlay(typeFile);
   for (const std::string& file : files) overlay(file);
-  config.parameters = config::toToml(start);
+  settings.parameters = config::toToml(start);
 }
 
-Objective makeObjective(const OptimizationConfig& config, const std::string& dataFolder) {
-  const Task& task = findTask(config.task);
-  auto space = std::make_shared<const SearchSpace>(config.startParameters(dataFolder), config.searchedKeys());
-  return [&task, space = std::move(space), settings = config.taskSettings(dataFolder)](const Job& job) {
+Objective makeObjective(const OptimizationSettings& settings, const std::string& dataFolder) {
+  const Task& task = findTask(settings.task);
+  auto space =
+      std::make_shared<const SearchSpace>(settings.startParameters(dataFolder), settings.searchedKeys());
+  return [&task, space = std::move(space), settings = settings.taskSettings(dataFolder)](const Job& job) {
     return task.evaluate(space->apply(job.point), job.seed, settings).fitness;
   };
 }

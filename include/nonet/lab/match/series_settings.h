@@ -15,7 +15,7 @@ namespace nonet::lab {
 
 /// A team and what runs it. At most one of `dataFolder`, `executable` and `command` is set; none: this
 /// program with its own data.
-struct SideChoice {
+struct SideSettings {
   std::string name;
   std::string dataFolder;  // this program with params/ and skills/ from here
   std::string executable;  // another executable of Nonet, an older commit say
@@ -30,24 +30,24 @@ struct SideChoice {
   bool nonet() const { return command.empty(); }
   /// "own", the folder, the executable or the command, and the overlays.
   std::string describe() const;
-  friend bool operator==(const SideChoice&, const SideChoice&) = default;
+  friend bool operator==(const SideSettings&, const SideSettings&) = default;
 };
 
 /// What a word of the command line means as a side: "own", the name of a variant (a file in params/variants/
 /// of `dataFolder`), a folder with params/ and skills/, an executable file, or a shell command that contains
 /// {port}. Paths become absolute. Throws std::runtime_error.
-SideChoice sideFromWord(const std::string& word, const std::string& dataFolder);
+SideSettings sideFromWord(const std::string& word, const std::string& dataFolder);
 
 /// Names of the variants there, in alphabetical order.
 std::vector<std::string> variantsIn(const std::string& dataFolder);
 
 /// A hash of what decides how the side plays, as far as files tell: the executable, params/ and skills/, the
 /// parameter files. `dataFolder`: of this program.
-std::string fingerprintOf(const SideChoice& side, const std::string& dataFolder);
+std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder);
 
-struct SeriesChoice {
-  SideChoice a;
-  SideChoice b;
+struct SeriesSettings {
+  SideSettings a;
+  SideSettings b;
   int pairs = 20;                               // at most, if a sequential test is used
   std::uint64_t seed = 1;                       // of the first pair; the next pair has the next one
   double minutes = 10.0;                        // game time of one game
@@ -66,10 +66,10 @@ struct SeriesChoice {
   std::string version;
 
   nlohmann::ordered_json toJson() const;
-  static SeriesChoice fromJson(const nlohmann::ordered_json& json);
+  static SeriesSettings fromJson(const nlohmann::ordered_json& json);
   /// Whether a game of the one is a game of the other: everything but the number of pairs, the test, and what
   /// is for readers or for the viewer.
-  bool sameGames(const SeriesChoice& other) const;
+  bool sameGames(const SeriesSettings& other) const;
   /// What the difference of one goal in one game is worth in a pair, goals per ten minutes.
   double resolution() const { return 10.0 / (2.0 * minutes); }
 };
@@ -82,14 +82,16 @@ struct SeriesGame {
 
   bool aLeft() const { return game == 1; }
 };
-SeriesGame gameOf(const SeriesChoice& choice, int index);  // index from 0: pair 1 game 1, pair 1 game 2, ...
+SeriesGame gameOf(const SeriesSettings& settings,
+                  int index);  // index from 0: pair 1 game 1, pair 1 game 2, ...
 
 /// The match that this game is. `overlayFolder` holds the sides' assignments as files (writeOverlays()).
-MatchChoice matchOf(const SeriesChoice& choice, const SeriesGame& game, const std::string& overlayFolder);
+MatchSettings matchOf(const SeriesSettings& settings, const SeriesGame& game,
+                      const std::string& overlayFolder);
 
 /// Writes the assignments of both sides as parameter files into the folder and tries all parameters of sides
 /// that run this program, so that an error shows before the first game. Throws.
-void writeOverlays(const SeriesChoice& choice, const std::string& overlayFolder,
+void writeOverlays(const SeriesSettings& settings, const std::string& overlayFolder,
                    const std::string& dataFolder);
 
 }  // namespace nonet::lab

@@ -1,4 +1,4 @@
-#include "nonet/lab/match/series_choice.h"
+#include "nonet/lab/match/series_settings.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kVariants = "/params/variants";  // in the data folder
 
-ordered_json sideJson(const SideChoice& side) {
+ordered_json sideJson(const SideSettings& side) {
   return {{"name", side.name},
           {"data", side.dataFolder},
           {"executable", side.executable},
@@ -29,8 +29,8 @@ ordered_json sideJson(const SideChoice& side) {
           {"fingerprint", side.fingerprint}};
 }
 
-SideChoice sideFromJson(const ordered_json& json) {
-  SideChoice side;
+SideSettings sideFromJson(const ordered_json& json) {
+  SideSettings side;
   side.name = json.at("name").get<std::string>();
   side.dataFolder = json.at("data").get<std::string>();
   side.executable = json.at("executable").get<std::string>();
@@ -59,11 +59,11 @@ std::string overlayFile(const std::string& folder, bool sideB) {
   return folder + (sideB ? "/set-b.toml" : "/set-a.toml");
 }
 
-TeamChoice teamOf(const SeriesChoice& choice, bool sideB, const std::string& overlayFolder) {
-  const SideChoice& side = sideB ? choice.b : choice.a;
-  TeamChoice team;
+TeamSettings teamOf(const SeriesSettings& settings, bool sideB, const std::string& overlayFolder) {
+  const SideSettings& side = sideB ? settings.b : settings.a;
+  TeamSettings team;
   team.name = side.name;
-  team.players = choice.players;
+  team.players = settings.players;
   team.parameterFiles = side.parameterFiles;
   if (!side.assignments.empty()) team.parameterFiles.push_back(overlayFile(overlayFolder, sideB));
   team.dataFolder = side.dataFolder;
@@ -83,7 +83,7 @@ void hashFile(const std::string& path, std::uint64_t& hash) {
 
 }  // namespace
 
-std::string fingerprintOf(const SideChoice& side, const std::string& dataFolder) {
+std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder) {
   if (!side.command.empty()) return "";
   std::vector<std::string> files = {side.executable.empty() ? "/proc/self/exe" : side.executable};
   if (side.ours()) {
@@ -100,7 +100,7 @@ std::string fingerprintOf(const SideChoice& side, const std::string& dataFolder)
   return fmt::format("{:016x}", hash);
 }
 
-std::string SideChoice::describe() const {
+std::string SideSettings::describe() const {
   std::string text = !command.empty()      ? command
                      : !executable.empty() ? executable
                      : !dataFolder.empty() ? dataFolder
@@ -120,8 +120,8 @@ std::vector<std::string> variantsIn(const std::string& dataFolder) {
   return names;
 }
 
-SideChoice sideFromWord(const std::string& word, const std::string& dataFolder) {
-  SideChoice side;
+SideSettings sideFromWord(const std::string& word, const std::string& dataFolder) {
+  SideSettings side;
   if (word == "own") return side;
   if (word.find("{port}") != std::string::npos) {
     side.command = word;
@@ -150,7 +150,7 @@ SideChoice sideFromWord(const std::string& word, const std::string& dataFolder) 
       word, fmt::join(variants, ", ")));
 }
 
-ordered_json SeriesChoice::toJson() const {
+ordered_json SeriesSettings::toJson() const {
   ordered_json json = {{"a", sideJson(a)},
                        {"b", sideJson(b)},
                        {"pairs", pairs},
@@ -170,59 +170,60 @@ ordered_json SeriesChoice::toJson() const {
   return json;
 }
 
-SeriesChoice SeriesChoice::fromJson(const ordered_json& json) {
-  SeriesChoice choice;
-  choice.a = sideFromJson(json.at("a"));
-  choice.b = sideFromJson(json.at("b"));
-  json.at("pairs").get_to(choice.pairs);
-  json.at("seed").get_to(choice.seed);
-  json.at("minutes").get_to(choice.minutes);
-  json.at("kick_off_wait_s").get_to(choice.kickOffWait);
-  json.at("players").get_to(choice.players);
-  json.at("setting_files").get_to(choice.settingFiles);
-  json.at("settings").get_to(choice.settingAssignments);
+SeriesSettings SeriesSettings::fromJson(const ordered_json& json) {
+  SeriesSettings settings;
+  settings.a = sideFromJson(json.at("a"));
+  settings.b = sideFromJson(json.at("b"));
+  json.at("pairs").get_to(settings.pairs);
+  json.at("seed").get_to(settings.seed);
+  json.at("minutes").get_to(settings.minutes);
+  json.at("kick_off_wait_s").get_to(settings.kickOffWait);
+  json.at("players").get_to(settings.players);
+  json.at("setting_files").get_to(settings.settingFiles);
+  json.at("settings").get_to(settings.settingAssignments);
   if (!json.at("sprt").is_null())
-    choice.sequential =
+    settings.sequential =
         SequentialBounds{json.at("sprt").at(0).get<double>(), json.at("sprt").at(1).get<double>()};
-  json.at("place").get_to(choice.place);
-  json.at("server_command").get_to(choice.serverCommand);
-  json.at("command_line").get_to(choice.commandLine);
-  json.at("date").get_to(choice.date);
-  json.at("version").get_to(choice.version);
-  return choice;
+  json.at("place").get_to(settings.place);
+  json.at("server_command").get_to(settings.serverCommand);
+  json.at("command_line").get_to(settings.commandLine);
+  json.at("date").get_to(settings.date);
+  json.at("version").get_to(settings.version);
+  return settings;
 }
 
-bool SeriesChoice::sameGames(const SeriesChoice& other) const {
+bool SeriesSettings::sameGames(const SeriesSettings& other) const {
   return a == other.a && b == other.b && seed == other.seed && minutes == other.minutes &&
          kickOffWait == other.kickOffWait && players == other.players && settingFiles == other.settingFiles &&
          settingAssignments == other.settingAssignments && place == other.place &&
          serverCommand == other.serverCommand;
 }
 
-SeriesGame gameOf(const SeriesChoice& choice, int index) {
+SeriesGame gameOf(const SeriesSettings& settings, int index) {
   return {.pair = index / 2 + 1,
           .game = index % 2 + 1,
-          .seed = choice.seed + static_cast<std::uint64_t>(index / 2)};
+          .seed = settings.seed + static_cast<std::uint64_t>(index / 2)};
 }
 
-MatchChoice matchOf(const SeriesChoice& choice, const SeriesGame& game, const std::string& overlayFolder) {
-  MatchChoice match;
-  match.left = teamOf(choice, !game.aLeft(), overlayFolder);
-  match.right = teamOf(choice, game.aLeft(), overlayFolder);
+MatchSettings matchOf(const SeriesSettings& settings, const SeriesGame& game,
+                      const std::string& overlayFolder) {
+  MatchSettings match;
+  match.left = teamOf(settings, !game.aLeft(), overlayFolder);
+  match.right = teamOf(settings, game.aLeft(), overlayFolder);
   match.seed = game.seed;
-  match.minutes = choice.minutes;
-  match.kickOffWait = choice.kickOffWait;
-  if (choice.monitorLogs)
+  match.minutes = settings.minutes;
+  match.kickOffWait = settings.kickOffWait;
+  if (settings.monitorLogs)
     match.monitorLog = fmt::format("{}/game-{}-{}.mon", overlayFolder, game.pair, game.game);
-  for (const std::string& file : choice.settingFiles) match.settings.overlayFile(file);
-  for (const std::string& assignment : choice.settingAssignments) match.settings.setAssignment(assignment);
+  for (const std::string& file : settings.settingFiles) match.settings.overlayFile(file);
+  for (const std::string& assignment : settings.settingAssignments) match.settings.setAssignment(assignment);
   return match;
 }
 
-void writeOverlays(const SeriesChoice& choice, const std::string& overlayFolder,
+void writeOverlays(const SeriesSettings& settings, const std::string& overlayFolder,
                    const std::string& dataFolder) {
   for (const bool sideB : {false, true}) {
-    const SideChoice& side = sideB ? choice.b : choice.a;
+    const SideSettings& side = sideB ? settings.b : settings.a;
     if (!side.assignments.empty()) {
       std::ofstream file(overlayFile(overlayFolder, sideB));
       for (const std::string& assignment : side.assignments) file << assignmentToml(assignment);
@@ -230,10 +231,10 @@ void writeOverlays(const SeriesChoice& choice, const std::string& overlayFolder,
         throw std::runtime_error(fmt::format("cannot write {}", overlayFile(overlayFolder, sideB)));
     }
     if (!side.ours()) continue;
-    MatchChoice match = matchOf(choice, gameOf(choice, 0), overlayFolder);
-    for (int unum = 1; unum <= choice.players; ++unum) {
-      agent::makeAgentConfig(agentChoice(match, sideB, unum),
-                             side.dataFolder.empty() ? dataFolder : side.dataFolder);
+    MatchSettings match = matchOf(settings, gameOf(settings, 0), overlayFolder);
+    for (int unum = 1; unum <= settings.players; ++unum) {
+      agent::makeAgentSettings(agentChoice(match, sideB, unum),
+                               side.dataFolder.empty() ? dataFolder : side.dataFolder);
     }
   }
 }

@@ -16,7 +16,7 @@
 
 namespace nonet::lab {
 
-struct OptimizationConfig {
+struct OptimizationSettings {
   std::string task;
   int robotType = 0;
   bool quickSolver = false;
@@ -38,9 +38,9 @@ struct OptimizationConfig {
 
   nlohmann::json toJson() const;
   /// Throws nlohmann::json::exception or std::runtime_error.
-  static OptimizationConfig fromJson(const nlohmann::json& value);
+  static OptimizationSettings fromJson(const nlohmann::json& value);
 
-  std::vector<std::string> searchedKeys() const;  // of the config, or else of the task
+  std::vector<std::string> searchedKeys() const;  // of the settings, or else of the task
   agent::AgentParameters startParameters(const std::string& dataFolder) const;
   TaskSettings taskSettings(const std::string& dataFolder) const;
 };
@@ -50,15 +50,15 @@ agent::AgentParameters defaultParameters(const std::string& dataFolder);
 
 /// Sets `parameters` and `inherited`: defaults, then DATA/params/type<robotType>.toml if there is one, then
 /// `files` in this order. Throws config::ParameterError.
-void setStart(OptimizationConfig& config, const std::string& dataFolder,
+void setStart(OptimizationSettings& settings, const std::string& dataFolder,
               const std::vector<std::string>& files);
 
 /// "none", "ipop", "bipop"; throws std::runtime_error.
 RestartScheme restartSchemeOf(const std::string& name);
 std::string nameOf(RestartScheme scheme);
 
-/// Fitness (higher is better) of a point of the config's search space: what the evaluator's workers run, the
-/// same on every rank.
-Objective makeObjective(const OptimizationConfig& config, const std::string& dataFolder);
+/// Fitness (higher is better) of a point of the settings's search space: what the evaluator's workers run,
+/// the same on every rank.
+Objective makeObjective(const OptimizationSettings& settings, const std::string& dataFolder);
 
 }  // namespace nonet::lab
