@@ -44,17 +44,27 @@ std::vector<std::string> expand(const std::vector<std::string>& arguments) {
   return files;
 }
 
+std::string folderOf(const std::string& file) {
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// The check of a file, beside which stand skills that those in it may be like.
+motion::SkillCheck checkFile(const std::string& file) {
+  return motion::checkSkills(readFile(file), file, motion::skillTexts(folderOf(file)));
+}
+
 /// Skills of the files beside `files`, for calls into them. Those that make no sense are not this check's
 /// business: it says that they were not read.
 std::vector<motion::Skill> neighboursOf(const std::vector<std::string>& files) {
   std::set<std::string> folders;
-  for (const std::string& file : files) folders.insert(std::filesystem::path(file).parent_path().string());
+  for (const std::string& file : files) folders.insert(folderOf(file));
   std::vector<motion::Skill> skills;
   for (const std::string& folder : folders) {
-    for (const std::string& file : motion::skillFiles(folder.empty() ? "." : folder)) {
+    for (const std::string& file : motion::skillFiles(folder)) {
       const auto same = [&](const std::string& other) { return std::filesystem::equivalent(file, other); };
       if (std::any_of(files.begin(), files.end(), same)) continue;
-      motion::SkillCheck neighbour = motion::checkSkills(readFile(file), file);
+      motion::SkillCheck neighbour = checkFile(file);
       if (!neighbour.errors.empty()) {
         fmt::print(stderr, "{}: has errors of its own ({}), is not checked here\n", file,
                    neighbour.errors.size());
@@ -75,11 +85,24 @@ std::vector<std::string> missingCalls(const std::vector<motion::Skill>& given,
     for (const motion::Instruction& instruction : skill.program) {
       if (instruction.kind != motion::Instruction::Kind::Call || names.contains(instruction.calleeName))
         continue;
-      errors.push_back(fmt::format("{}:{}:{}: there is no skill '{}'", skill.file, instruction.line,
+      errors.push_back(fmt::format("{}:{}:{}: there is no skill '{}'", skill.textFile, instruction.line,
                                    instruction.column, instruction.calleeName));
     }
   }
   return errors;
+}
+
+/// Each once: skills that are like a broken one have its errors too.
+std::vector<std::string> withoutRepetitions(const std::vector<std::string>& errors) {
+  std::set<std::string> told;
+  for (const std::string& error : errors) told.insert(error);
+  std::vector<std::string> result;
+  for (const std::string& error : errors) {
+    const std::size_t heir = error.rfind(" (in ");
+    if (heir != std::string::npos && told.contains(error.substr(0, heir))) continue;
+    if (told.erase(error) > 0) result.push_back(error);
+  }
+  return result;
 }
 
 int check(const SkillArguments& arguments) {
@@ -87,7 +110,7 @@ int check(const SkillArguments& arguments) {
   std::vector<std::string> errors;
   const std::vector<std::string> files = expand(arguments.files);
   for (const std::string& file : files) {
-    motion::SkillCheck one = motion::checkSkills(readFile(file), file);
+    motion::SkillCheck one = checkFile(file);
     errors.insert(errors.end(), one.errors.begin(), one.errors.end());
     for (motion::Skill& skill : one.skills) given.push_back(std::move(skill));
   }
@@ -101,6 +124,7 @@ int check(const SkillArguments& arguments) {
       errors.emplace_back(error.what());
     }
   }
+  errors = withoutRepetitions(errors);
   for (const std::string& error : errors) fmt::print(stderr, "{}\n", error);
   if (!errors.empty()) {
     fmt::print(stderr, "{} files, {} errors\n", files.size(), errors.size());
@@ -114,7 +138,7 @@ int format(const SkillArguments& arguments) {
   int changed = 0;
   for (const std::string& file : expand(arguments.files)) {
     const std::string before = readFile(file);
-    const std::string after = motion::formatSkills(before, file);
+    const std::string after = motion::formatSkills(before, file, motion::skillTexts(folderOf(file)));
     if (after == before) continue;
     ++changed;
     if (arguments.testOnly) {

@@ -19,6 +19,7 @@
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/skill_report.h"
 #include "nonet/motion/skill_language.h"
+#include "nonet/motion/skill_library.h"
 
 namespace nonet::app {
 
@@ -42,7 +43,10 @@ std::string skillIn(const fs::path& path) {
   if (!file) throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::vector<std::string> names;
-  for (const motion::Skill& skill : motion::parseSkills(text, path.string())) names.push_back(skill.name);
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  for (const motion::Skill& skill :
+       motion::parseSkills(text, path.string(), nullptr, motion::skillTexts(folder)))
+    names.push_back(skill.name);
   if (std::find(names.begin(), names.end(), path.stem().string()) != names.end()) return path.stem().string();
   if (names.size() == 1) return names.front();
   throw std::runtime_error(

@@ -51,8 +51,9 @@ std::string formatLine(const std::vector<SkillToken>& line, int indent) {
 
 }  // namespace
 
-std::string formatSkills(std::string_view text, const std::string& file) {
-  parseSkills(text, file);
+std::string formatSkills(std::string_view text, const std::string& file,
+                         const std::vector<SkillText>& others) {
+  parseSkills(text, file, nullptr, others);
   std::string result;
   std::vector<SkillToken> line;
   int indent = 0;

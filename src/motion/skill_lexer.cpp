@@ -56,6 +56,7 @@ class Lexer {
     SkillToken token;
     token.kind = kind;
     token.text = text_.substr(at_, length);
+    token.file = file_;
     token.line = line_;
     token.column = static_cast<int>(at_ - lineBegin_) + 1;
     at_ += length;
@@ -120,8 +121,8 @@ class Lexer {
   }
 
   void fail(const SkillToken& token, const std::string& message) const {
-    if (errors_ == nullptr) failAt(file_, token, message);
-    errors_->push_back(errorAt(file_, token, message));
+    if (errors_ == nullptr) failAt(token, message);
+    errors_->push_back(errorAt(token, message));
   }
 
   std::string_view text_;
@@ -135,17 +136,27 @@ class Lexer {
 
 }  // namespace
 
-std::string errorAt(const std::string& file, const SkillToken& token, const std::string& message) {
-  return fmt::format("{}:{}:{}: {}", file, token.line, token.column, message);
+std::string errorAt(const SkillToken& token, const std::string& message) {
+  const std::string heir = token.heir.empty() ? "" : fmt::format(" (in {})", token.heir);
+  return fmt::format("{}:{}:{}: {}{}", token.file, token.line, token.column, message, heir);
 }
 
-void failAt(const std::string& file, const SkillToken& token, const std::string& message) {
-  throw SkillError(errorAt(file, token, message));
+void failAt(const SkillToken& token, const std::string& message) {
+  throw SkillError(errorAt(token, message));
 }
 
 std::vector<SkillToken> lexSkills(std::string_view text, const std::string& file,
                                   std::vector<std::string>* errors) {
   return Lexer(text, file, errors).run();
+}
+
+std::vector<SkillToken> lexWords(std::string_view text, const std::string& file,
+                                 std::vector<std::string>* errors) {
+  std::vector<SkillToken> words = lexSkills(text, file, errors);
+  std::erase_if(words, [](const SkillToken& token) {
+    return token.kind == SkillToken::Kind::Comment || token.kind == SkillToken::Kind::NewLine;
+  });
+  return words;
 }
 
 }  // namespace nonet::motion

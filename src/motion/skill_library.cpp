@@ -20,7 +20,7 @@ std::string readFile(const std::string& path) {
 }
 
 [[noreturn]] void failIn(const Skill& skill, const Instruction& at, const std::string& message) {
-  throw SkillError(fmt::format("{}:{}:{}: {}", skill.file, at.line, at.column, message));
+  throw SkillError(fmt::format("{}:{}:{}: {}", skill.textFile, at.line, at.column, message));
 }
 
 std::vector<Skill> readFolder(const std::string& folder, const SkillParameters& parameters) {
@@ -28,8 +28,9 @@ std::vector<Skill> readFolder(const std::string& folder, const SkillParameters& 
   const auto lookup = [&](std::string_view skill, std::string_view parameter) {
     return parameters.find(skill, parameter);
   };
-  for (const std::string& path : skillFiles(folder)) {
-    for (Skill& skill : parseSkills(readFile(path), path, lookup)) skills.push_back(std::move(skill));
+  const std::vector<SkillText> texts = skillTexts(folder);
+  for (const SkillText& text : texts) {
+    for (Skill& skill : parseSkills(text.text, text.file, lookup, texts)) skills.push_back(std::move(skill));
   }
   return skills;
 }
@@ -47,6 +48,12 @@ std::vector<std::string> skillFiles(const std::string& skillFolder) {
   }
   std::sort(paths.begin(), paths.end());
   return paths;
+}
+
+std::vector<SkillText> skillTexts(const std::string& skillFolder) {
+  std::vector<SkillText> texts;
+  for (const std::string& path : skillFiles(skillFolder)) texts.push_back({path, readFile(path)});
+  return texts;
 }
 
 std::optional<double> SkillParameters::find(std::string_view skill, std::string_view parameter) const {

@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include <fmt/format.h>
 
-#include "nonet/math/angle.h"
 #include "nonet/model/robot_model.h"
 #include "nonet/motion/limbs.h"
 #include "nonet/motion/skill_language.h"
 
 #include "skill_condition.h"
+#include "skill_joints.h"
 #include "skill_kick_head.h"
 #include "skill_reader.h"
 
@@ -18,40 +17,14 @@ namespace nonet::motion {
 namespace {
 
 using config::Unit;
-using model::JointId;
 using model::Side;
 using Kind = SkillToken::Kind;
 
-struct JointWord {
-  std::string_view name;
-  JointId left;
-};
-constexpr std::array<JointWord, 11> kLimbJoints{{{"shoulderPitch", JointId::LArm1},
-                                                 {"shoulderYaw", JointId::LArm2},
-                                                 {"armRoll", JointId::LArm3},
-                                                 {"elbow", JointId::LArm4},
-                                                 {"hipYawPitch", JointId::LLeg1},
-                                                 {"hipRoll", JointId::LLeg2},
-                                                 {"hipPitch", JointId::LLeg3},
-                                                 {"knee", JointId::LLeg4},
-                                                 {"anklePitch", JointId::LLeg5},
-                                                 {"ankleRoll", JointId::LLeg6},
-                                                 {"toe", JointId::LLeg7}}};
-
-bool isRight(JointId joint) {
-  return (joint >= JointId::RArm1 && joint <= JointId::RArm4) ||
-         (joint >= JointId::RLeg1 && joint <= JointId::RLeg7);
-}
-
-KickValue negated(const KickValue& value) {
-  return {-value.constant, -value.per};
-}
-
 class Parser : private SkillReader {
  public:
-  Parser(std::string_view text, const std::string& file, const ParameterLookup& lookup,
-         std::vector<std::string>* errors = nullptr)
-      : SkillReader(text, file, errors), lookup_(lookup) {}
+  Parser(std::string_view text, const std::string& file, const std::vector<SkillText>& others,
+         const ParameterLookup& lookup, std::vector<std::string>* errors = nullptr)
+      : SkillReader(text, file, others, errors), lookup_(lookup) {}
 
   std::vector<Skill> run() {
     std::vector<Skill> skills;
@@ -84,12 +57,14 @@ class Parser : private SkillReader {
     forgetNames();
     skill_.file = file();
     skill_.name = word("the name of the skill");
+    if (accept("like")) fail("expected the name of the skill that this one is like, and '{'");
     expect("{");
     const auto begins = [](const SkillToken& token) {
       return token.text == "parameter" || token.text == "kick" || isStatement(token);
     };
-    while (accept("parameter")) part([this] { parseParameter(); }, begins);
+    while (peek().text == "parameter") part([this] { parseParameter(); }, begins);
     if (accept("kick")) part([this] { skill_.kick = readKickHead(*this); }, begins);
+    skill_.textFile = peek().file;
     allowInputs(skill_.kick.has_value());
     block();
     allowInputs(false);
@@ -97,30 +72,56 @@ class Parser : private SkillReader {
     return std::move(skill_);
   }
 
+  // One that restates another skill's follows right behind that (skill_like.h).
   void parseParameter() {
+    const bool restates = take().restates;
     const SkillToken nameToken = peek();
-    SkillParameter parameter;
-    parameter.name = word("the name of the parameter");
-    if (isNamed(parameter.name)) failAt(nameToken, "this parameter exists already");
-    if (collects()) nameValue(parameter.name, {});  // known, even if what follows makes no sense
+    const std::string name = word("the name of the parameter");
+    SkillParameter* known = restates ? parameterOf(name) : nullptr;
+    if (isNamed(name) && !restates) failAt(nameToken, "this parameter exists already");
+    if (collects() && !isNamed(name)) nameValue(name, {});  // known, even if what follows makes no sense
     expect("=");
-    const SkillValue initial = anyValue();
-    parameter.value = initial.number;
-    parameter.unit = initial.unit;
-    if (accept("in")) {
-      config::Range range;
-      range.low = value(parameter.unit);
-      expect("..");
-      range.high = value(parameter.unit);
-      if (!(range.low < range.high)) failAt(nameToken, "the range is empty");
-      if (parameter.value < range.low || parameter.value > range.high) {
-        failAt(nameToken, "the default lies outside the range");
-      }
-      parameter.range = range;
+    SkillParameter parameter = known != nullptr ? *known : SkillParameter{};
+    parameter.name = name;
+    if (known != nullptr) {
+      parameter.value = value(known->unit);
+    } else {
+      const SkillValue initial = anyValue();
+      parameter.value = initial.number;
+      parameter.unit = initial.unit;
+    }
+    if (accept("in")) parameter.range = range(parameter.unit, nameToken);
+    if (!peek().restates) finish(parameter, nameToken);
+    nameValue(name, {parameter.value, parameter.unit});
+    if (known == nullptr) {
+      skill_.parameters.push_back(std::move(parameter));
+    } else {
+      *known = std::move(parameter);
+    }
+  }
+
+  SkillParameter* parameterOf(const std::string& name) {
+    const auto found = std::find_if(skill_.parameters.begin(), skill_.parameters.end(),
+                                    [&](const SkillParameter& parameter) { return parameter.name == name; });
+    return found == skill_.parameters.end() ? nullptr : &*found;
+  }
+
+  config::Range range(Unit unit, const SkillToken& nameToken) {
+    config::Range range;
+    range.low = value(unit);
+    expect("..");
+    range.high = value(unit);
+    if (!(range.low < range.high)) failAt(nameToken, "the range is empty");
+    return range;
+  }
+
+  // Nothing restates it any more.
+  void finish(SkillParameter& parameter, const SkillToken& nameToken) const {
+    if (parameter.range &&
+        (parameter.value < parameter.range->low || parameter.value > parameter.range->high)) {
+      failAt(nameToken, "the default lies outside the range");
     }
     if (lookup_) parameter.value = lookup_(skill_.name, parameter.name).value_or(parameter.value);
-    nameValue(parameter.name, {parameter.value, parameter.unit});
-    skill_.parameters.push_back(std::move(parameter));
   }
 
   Instruction& emit(Instruction::Kind kind) {
@@ -204,7 +205,7 @@ class Parser : private SkillReader {
         continue;
       }
       const std::size_t before = instruction.joints.size();
-      joints(instruction, true);
+      readJoints(*this, instruction.joints, true);
       if (!accept("after")) continue;
       const KickValue after = kickValue(Unit::Second);
       for (std::size_t i = before; i < instruction.joints.size(); ++i) instruction.joints[i].after = after;
@@ -244,7 +245,7 @@ class Parser : private SkillReader {
   // Where a joint or a foot is to be at the end of a move or curve.
   void target(Instruction& instruction) {
     if (accept("shift")) return shift(instruction);
-    if (!accept("foot")) return joints(instruction, true);
+    if (!accept("foot")) return readJoints(*this, instruction.joints, true);
     const Side foot = side();
     expect("at");
     instruction.feet.push_back(pose(foot));
@@ -270,61 +271,6 @@ class Parser : private SkillReader {
     goal.position = vector(Unit::Metre);
     if (accept("rpy")) goal.rollPitchYaw = vector(Unit::Radian);
     return goal;
-  }
-
-  // "left.knee -30deg"; without a value the joints are only named.
-  void joints(Instruction& instruction, bool withAngle) {
-    const SkillToken first = peek();
-    const std::string group = word("a joint (left.knee, both.elbow, head.pan), 'foot' or '}'");
-    if (group != "left" && group != "right" && group != "both" && group != "head") {
-      failAt(first, fmt::format("'{}' is no side (left right both head)", group));
-    }
-    expect(".");
-    const SkillToken nameToken = peek();
-    const std::string name = word("the name of a joint");
-    if (group == "head") {
-      if (name != "pan" && name != "tilt") failAt(nameToken, "the head has the joints pan and tilt");
-      const SkillToken angleToken = peek();
-      const KickValue angle = withAngle ? kickValue(Unit::Radian) : KickValue{};
-      if (withAngle)
-        checkLimits(angleToken, name == "pan" ? JointId::Head1 : JointId::Head2,
-                    name == "pan" ? angle.constant : -angle.constant);
-      // Tilt is positive downwards here as in a head request; the joint is positive upwards.
-      if (name == "pan") instruction.joints.push_back({JointId::Head1, angle, {}});
-      if (name == "tilt") instruction.joints.push_back({JointId::Head2, negated(angle), {}});
-      return;
-    }
-    const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
-                                    [&](const JointWord& joint) { return joint.name == name; });
-    if (found == kLimbJoints.end()) failAt(nameToken, fmt::format("unknown joint '{}'", name));
-    const SkillToken angleToken = peek();
-    const KickValue angle = withAngle ? kickValue(Unit::Radian) : KickValue{};
-    if (withAngle) checkLimits(angleToken, found->left, angle.constant);
-    const JointId right = model::mirrored(found->left);
-    if (group != "right") instruction.joints.push_back({found->left, angle, {}});
-    if (group != "left")
-      instruction.joints.push_back({right, mirrorsSign(right) ? negated(angle) : angle, {}});
-  }
-
-  // Only when errors are collected: learned values of parameters may lie outside, and the joint then stops at
-  // its limit.
-  void checkLimits(const SkillToken& token, JointId joint, double angle) const {
-    if (!collects()) return;
-    config::Range widest{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for (int type = 0; type <= 4; ++type) {
-      const model::RobotModel& robot = model::robotModel(type);
-      if (!robot.has(joint)) continue;
-      widest.low = std::min(widest.low, robot.joint(joint).low);
-      widest.high = std::max(widest.high, robot.joint(joint).high);
-    }
-    constexpr double kRounding = 1e-6;
-    if (angle >= widest.low - kRounding && angle <= widest.high + kRounding) return;
-    // As it stands in the file: tilt is turned round there.
-    const double sign = joint == JointId::Head2 ? -1.0 : 1.0;
-    const double a = toDegrees(sign * widest.low);
-    const double b = toDegrees(sign * widest.high);
-    note(token, fmt::format("{:.4g} deg is out of the joint's reach, {:.4g} .. {:.4g} deg",
-                            toDegrees(sign * angle), std::min(a, b), std::max(a, b)));
   }
 
   void wait() {
@@ -387,7 +333,7 @@ class Parser : private SkillReader {
     instruction.value = value(Unit::None);
     if (instruction.value < 0.0 || instruction.value > 1.0) failAt(first, "stiffness lies between 0 and 1");
     if (accept("{")) {
-      while (!accept("}")) joints(instruction, false);
+      while (!accept("}")) readJoints(*this, instruction.joints, false);
       return;
     }
     for (std::size_t i = 0; i < model::kJointCount; ++i)
@@ -400,48 +346,16 @@ class Parser : private SkillReader {
 
 }  // namespace
 
-bool mirrorsSign(JointId joint) {
-  switch (joint) {
-    case JointId::Head1:
-    case JointId::LArm2:
-    case JointId::LArm3:
-    case JointId::LArm4:
-    case JointId::LLeg2:
-    case JointId::LLeg6:
-    case JointId::RArm2:
-    case JointId::RArm3:
-    case JointId::RArm4:
-    case JointId::RLeg2:
-    case JointId::RLeg6:
-      return true;
-    default:
-      return false;
-  }
+std::vector<Skill> parseSkills(std::string_view text, const std::string& file, const ParameterLookup& lookup,
+                               const std::vector<SkillText>& others) {
+  return Parser(text, file, others, lookup).run();
 }
 
-std::vector<Skill> parseSkills(std::string_view text, const std::string& file,
-                               const ParameterLookup& lookup) {
-  return Parser(text, file, lookup).run();
-}
-
-SkillCheck checkSkills(std::string_view text, const std::string& file) {
+SkillCheck checkSkills(std::string_view text, const std::string& file, const std::vector<SkillText>& others) {
   SkillCheck check;
   const ParameterLookup none;
-  check.skills = Parser(text, file, none, &check.errors).run();
+  check.skills = Parser(text, file, others, none, &check.errors).run();
   return check;
-}
-
-std::string jointWord(JointId joint) {
-  if (joint == JointId::Head1) return "head.pan";
-  if (joint == JointId::Head2) return "head.tilt";
-  const JointId left = isRight(joint) ? model::mirrored(joint) : joint;
-  const auto found = std::find_if(kLimbJoints.begin(), kLimbJoints.end(),
-                                  [&](const JointWord& word) { return word.left == left; });
-  return fmt::format("{}.{}", isRight(joint) ? "right" : "left", found->name);
-}
-
-bool countsBackwards(JointId joint) {
-  return joint == JointId::Head2 || (isRight(joint) && mirrorsSign(joint));
 }
 
 }  // namespace nonet::motion

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "nonet/motion/skill_language.h"
+#include "skill_like.h"
 
 namespace nonet::motion {
 
@@ -18,11 +18,10 @@ constexpr std::array<std::string_view, kKickInputs> kInputWords{"ballAhead", "ba
 
 }  // namespace
 
-SkillReader::SkillReader(std::string_view text, const std::string& file, std::vector<std::string>* errors)
+SkillReader::SkillReader(std::string_view text, const std::string& file, const std::vector<SkillText>& others,
+                         std::vector<std::string>* errors)
     : file_(file), errors_(errors) {
-  for (const SkillToken& token : lexSkills(text, file, errors)) {
-    if (token.kind != Kind::Comment && token.kind != Kind::NewLine) tokens_.push_back(token);
-  }
+  tokens_ = writeOutLikes(lexWords(text, file_, errors), file_, others, errors);
 }
 
 const SkillToken& SkillReader::take() {
@@ -49,12 +48,12 @@ std::string SkillReader::word(std::string_view what) {
 }
 
 void SkillReader::failAt(const SkillToken& token, const std::string& message) const {
-  motion::failAt(file_, token, message);
+  motion::failAt(token, message);
 }
 
 void SkillReader::note(const SkillToken& token, const std::string& message) const {
   if (errors_ == nullptr) failAt(token, message);
-  errors_->push_back(errorAt(file_, token, message));
+  errors_->push_back(errorAt(token, message));
 }
 
 void SkillReader::part(const std::function<void()>& read,

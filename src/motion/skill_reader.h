@@ -11,6 +11,7 @@
 #include "nonet/config/parameters.h"
 #include "nonet/math/types.h"
 #include "nonet/motion/skill.h"
+#include "nonet/motion/skill_language.h"
 
 #include "skill_lexer.h"
 
@@ -30,9 +31,11 @@ struct SkillValue {
 /// All members throw SkillError where the text is not what they read.
 class SkillReader {
  public:
-  /// Skips comments and line ends. `text` must outlive the reader.
-  /// With `errors`, those that can be passed over are put there, and reading goes on.
-  SkillReader(std::string_view text, const std::string& file, std::vector<std::string>* errors = nullptr);
+  /// Skips comments and line ends; a skill that is `like` another one, here or in `others`, is read as if it
+  /// were written out. The texts must outlive the reader. With `errors`, those that can be passed over are
+  /// put there, and reading goes on.
+  SkillReader(std::string_view text, const std::string& file, const std::vector<SkillText>& others,
+              std::vector<std::string>* errors = nullptr);
 
   const std::string& file() const { return file_; }
   const SkillToken& peek() const { return tokens_[at_]; }

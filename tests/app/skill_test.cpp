@@ -91,6 +91,37 @@ TEST_F(SkillCommand, BrokenNeighboursAreMentionedOnly) {
   EXPECT_THAT(output, HasSubstr("broken.skl: has errors of its own (1)"));
 }
 
+// The other skill stands in a file that is read later; its faults are told once, those of the new numbers by
+// name.
+TEST_F(SkillCommand, ChecksAndFormatsSkillsThatAreLikeNeighbours) {
+  const std::string base =
+      write("base.skl", "skill base {\n  parameter x = 5deg\n  move over 1s { left.knee -x }\n}\n");
+  const std::string file = write("as_base.skl", "skill as_base like base{\nparameter x=9deg # more\n}\n");
+  EXPECT_EQ(check({file}).first, 0) << check({file}).second;
+  Program program({"skill", "format", file}, folder.file("out.txt"));
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  std::ifstream stream(file);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}),
+            "skill as_base like base {\n  parameter x = 9deg  # more\n}\n");
+
+  write("as_base.skl", "skill as_base like base { parameter x = 200deg }\n");
+  auto [code, output] = check({folder.file("")});
+  EXPECT_EQ(code, 1);
+  EXPECT_THAT(output, HasSubstr(base + ":3:28: -200 deg is out of the joint's reach"));
+  EXPECT_THAT(output, HasSubstr("(in as_base)"));
+  EXPECT_THAT(output, HasSubstr("2 files, 1 errors"));
+
+  write("base.skl", "skill base {\n  parameter x = 5deg\n  jump\n  call nosuch\n}\n");
+  std::tie(code, output) = check({folder.file("")});
+  EXPECT_THAT(output, HasSubstr(base + ":3:3: 'jump' is no statement"));
+  EXPECT_THAT(output, HasSubstr(base + ":4:8: there is no skill 'nosuch'"));
+  EXPECT_THAT(output, HasSubstr("2 files, 2 errors"));
+  EXPECT_THAT(check({file}).second, HasSubstr(base + ":3:3: 'jump' is no statement"));
+
+  fs::remove(base);
+  EXPECT_THAT(check({file}).second, HasSubstr(file + ":1:20: there is no skill 'base'"));
+}
+
 TEST_F(SkillCommand, EndsWhateverItReads) {
   const std::string whole = "skill a { if upright { move over 1s { left.knee 1deg } } else { call b } }";
   for (std::size_t cut = 0; cut < whole.size(); ++cut) {
@@ -170,6 +201,15 @@ TEST_F(SkillPlay, EndsInTheLastPosture) {
   for (const std::string part : {"skill wave, robot type 0", ">time, s<", ">angle, deg<", ">told (target)<",
                                  ">done (measured)<", ">limit of the joint<", ">6</text>"})
     EXPECT_THAT(svg, HasSubstr(part));
+}
+
+TEST_F(SkillPlay, PlaysASkillThatIsLikeItsNeighbour) {
+  write("base.skl",
+        "skill base {\n  parameter x = 5deg in 0deg..90deg\n  move over 0.3s { left.elbow -x }\n}\n");
+  const auto [code, output] =
+      play(write("as_base.skl", "skill as_base like base { parameter x = 40deg }\n"), {"--json"});
+  ASSERT_EQ(code, 0) << output;
+  EXPECT_NEAR(jsonOf(output)["joints"]["left.elbow"]["target_end_deg"].get<double>(), -40.0, 1e-6);
 }
 
 TEST_F(SkillPlay, MirrorsIt) {

@@ -1,7 +1,5 @@
 #include "nonet/motion/skill_language.h"
 
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -234,11 +232,9 @@ TEST(SkillFormat, ShippedSkillsLoadAndAreFormatted) {
   const std::string folder = std::string(NONET_SOURCE_DIR) + "/skills";
   const SkillLibrary library(folder, declareSkillParameters(folder));
   EXPECT_GT(library.size(), 0U);
-  for (const std::string& path : skillFiles(folder)) {
-    std::ifstream file(path);
-    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    EXPECT_EQ(formatSkills(text, path), text) << path << ": run `nonet skill format`";
-  }
+  const std::vector<SkillText> texts = skillTexts(folder);
+  for (const auto& [path, text] : texts)
+    EXPECT_EQ(formatSkills(text, path, texts), text) << path << ": run `nonet skill format`";
 }
 
 // Random mutations of a good text: an error or a skill, never a crash (run under the sanitizers too).

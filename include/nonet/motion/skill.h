@@ -160,6 +160,7 @@ struct Instruction {
 struct Skill {
   std::string name;
   std::string file;
+  std::string textFile;  // where its statements stand: another file than `file` if it is `like` a skill there
   std::optional<KickHead> kick;
   std::vector<SkillParameter> parameters;
   std::vector<Instruction> program;

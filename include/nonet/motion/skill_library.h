@@ -10,6 +10,8 @@
 
 namespace nonet::motion {
 
+struct SkillText;  // skill_language.h
+
 class SkillLibrary {
  public:
   SkillLibrary() = default;
@@ -35,5 +37,8 @@ class SkillLibrary {
 
 /// Paths of the *.skl files of a folder, sorted.
 std::vector<std::string> skillFiles(const std::string& skillFolder);
+
+/// These files. Throws SkillError if one cannot be read.
+std::vector<SkillText> skillTexts(const std::string& skillFolder);
 
 }  // namespace nonet::motion
