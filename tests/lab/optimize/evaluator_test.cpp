@@ -54,12 +54,15 @@ TEST(ThreadEvaluator, PassesAnErrorOn) {
   EXPECT_THROW(evaluator->evaluate(makeJobs(20)), std::runtime_error);
 }
 
-// Runs one of the disabled tests below on three ranks; the exit status of mpirun.
+// Runs one of the disabled tests below on three ranks; the exit status of mpirun. Open MPI's plugins never
+// give back what they took and are unloaded, so that nothing names them: a sanitized rank looks for no leaks,
+// or each would end with 1.
 int underMpirun(const std::string& test, const std::string& options) {
   std::array<char, 4096> self{};
   if (readlink("/proc/self/exe", self.data(), self.size() - 1) < 0) return -1;
   const std::string command = fmt::format(
-      "mpirun -n 3 --allow-run-as-root --oversubscribe {} {} --gtest_also_run_disabled_tests "
+      "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 mpirun -n 3 --allow-run-as-root --oversubscribe {} {} "
+      "--gtest_also_run_disabled_tests "
       "--gtest_filter=OnRanks.DISABLED_{} 2>&1",
       options, self.data(), test);
   return std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe)
