@@ -208,7 +208,7 @@ int optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::st
   return stopped ? 1 : 0;
 }
 
-/// The options that a run keeps, by their names in its settings.json.
+/// The options that a run keeps, by their names in its config.json.
 constexpr std::array<std::pair<const char*, const char*>, 11> kKept{
     {{"--type", "robotType"},
      {"--population", "population"},

@@ -35,7 +35,7 @@ class TcpGame {
         goOn_(goOn),
         watcher_(match),
         statistics_({match.settings.fieldLength, match.settings.fieldWidth, match.settings.goalWidth}),
-        server_(lab::matchSettings(match), match.seed, serverSettings()) {}
+        server_(lab::simulationSettings(match), match.seed, serverSettings()) {}
 
   lab::GameRecord play() {
     for (const bool rightTeam : {false, true})

@@ -44,21 +44,16 @@ std::vector<std::string> expand(const std::vector<std::string>& arguments) {
   return files;
 }
 
-std::string folderOf(const std::string& file) {
-  const std::string folder = std::filesystem::path(file).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
-
 /// The check of a file, beside which stand skills that those in it may be like.
 motion::SkillCheck checkFile(const std::string& file) {
-  return motion::checkSkills(readFile(file), file, motion::skillTexts(folderOf(file)));
+  return motion::checkSkills(readFile(file), file, motion::skillTexts(motion::skillFolderOf(file)));
 }
 
 /// Skills of the files beside `files`, for calls into them. Those that make no sense are not this check's
 /// business: it says that they were not read.
 std::vector<motion::Skill> neighboursOf(const std::vector<std::string>& files) {
   std::set<std::string> folders;
-  for (const std::string& file : files) folders.insert(folderOf(file));
+  for (const std::string& file : files) folders.insert(motion::skillFolderOf(file));
   std::vector<motion::Skill> skills;
   for (const std::string& folder : folders) {
     for (const std::string& file : motion::skillFiles(folder)) {
@@ -138,7 +133,8 @@ int format(const SkillArguments& arguments) {
   int changed = 0;
   for (const std::string& file : expand(arguments.files)) {
     const std::string before = readFile(file);
-    const std::string after = motion::formatSkills(before, file, motion::skillTexts(folderOf(file)));
+    const std::string after =
+        motion::formatSkills(before, file, motion::skillTexts(motion::skillFolderOf(file)));
     if (after == before) continue;
     ++changed;
     if (arguments.testOnly) {

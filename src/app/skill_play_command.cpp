@@ -43,9 +43,8 @@ std::string skillIn(const fs::path& path) {
   if (!file) throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::vector<std::string> names;
-  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-  for (const motion::Skill& skill :
-       motion::parseSkills(text, path.string(), nullptr, motion::skillTexts(folder)))
+  const std::vector<motion::SkillText> folder = motion::skillTexts(motion::skillFolderOf(path.string()));
+  for (const motion::Skill& skill : motion::parseSkills(text, path.string(), nullptr, folder))
     names.push_back(skill.name);
   if (std::find(names.begin(), names.end(), path.stem().string()) != names.end()) return path.stem().string();
   if (names.size() == 1) return names.front();
@@ -56,9 +55,9 @@ std::string skillIn(const fs::path& path) {
 
 /// A file beside others: the folder's skills with the numbers that stand there. What was learned for the
 /// skills of the data folder is not meant for these.
-void useFolder(const fs::path& folder, const std::vector<std::string>& assignments,
-               agent::AgentSettings& agent) {
-  agent.skillFolder = folder.empty() ? "." : folder.string();
+void useFolderOf(const fs::path& file, const std::vector<std::string>& assignments,
+                 agent::AgentSettings& agent) {
+  agent.skillFolder = motion::skillFolderOf(file.string());
   agent.parameters.motion.skills = motion::declareSkillParameters(agent.skillFolder);
   for (const std::string& text : assignments) config::assignParameter(agent.parameters, text);
 }
@@ -78,7 +77,7 @@ void chooseSkill(const SkillPlayArguments& arguments, lab::SkillTrialSettings& s
     agent::AgentChoice choice = arguments.choice;
     choice.assignments.clear();
     settings.agent = agent::makeAgentSettings(choice, data);
-    useFolder(file.parent_path(), arguments.choice.assignments, settings.agent);
+    useFolderOf(file, arguments.choice.assignments, settings.agent);
   }
 }
 

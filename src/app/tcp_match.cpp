@@ -86,7 +86,7 @@ class TcpMatch {
         watcher_(settings.match),
         sink_(std::make_shared<ConsoleSink>(console)),
         logger_(sink_),
-        server_(lab::matchSettings(settings.match), settings.match.seed, serverSettings()) {}
+        server_(lab::simulationSettings(settings.match), settings.match.seed, serverSettings()) {}
 
   lab::MatchResult run() {
     if (!settings_.logs.empty()) fs::create_directories(settings_.logs);

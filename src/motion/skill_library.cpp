@@ -50,6 +50,11 @@ std::vector<std::string> skillFiles(const std::string& skillFolder) {
   return paths;
 }
 
+std::string skillFolderOf(const std::string& file) {
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
 std::vector<SkillText> skillTexts(const std::string& skillFolder) {
   std::vector<SkillText> texts;
   for (const std::string& path : skillFiles(skillFolder)) texts.push_back({path, readFile(path)});

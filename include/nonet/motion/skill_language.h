@@ -39,8 +39,8 @@ std::vector<Skill> parseSkills(std::string_view text, const std::string& file,
 /// all robot types are errors here. Throws nothing.
 struct SkillCheck {
   std::vector<Skill> skills;  // as far as they could be read
-  std::vector<std::string>
-      errors;  // "file:line:column: what is wrong", lexical ones and those of `like` first
+  /// "file:line:column: what is wrong", lexical ones and those of `like` first.
+  std::vector<std::string> errors;
 };
 SkillCheck checkSkills(std::string_view text, const std::string& file,
                        const std::vector<SkillText>& others = {});

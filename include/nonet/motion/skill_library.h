@@ -38,7 +38,10 @@ class SkillLibrary {
 /// Paths of the *.skl files of a folder, sorted.
 std::vector<std::string> skillFiles(const std::string& skillFolder);
 
-/// These files. Throws SkillError if one cannot be read.
+/// The folder in which a skill file lies: "." for a bare name.
+std::string skillFolderOf(const std::string& file);
+
+/// The files of a folder. Throws SkillError if one cannot be read.
 std::vector<SkillText> skillTexts(const std::string& skillFolder);
 
 }  // namespace nonet::motion

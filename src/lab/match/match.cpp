@@ -48,7 +48,7 @@ std::string matchTitle(const MatchSettings& choice) {
   return fmt::format("{} against {}, {} a side", choice.left.name, choice.right.name, choice.left.players);
 }
 
-sim::Settings matchSettings(const MatchSettings& choice) {
+sim::Settings simulationSettings(const MatchSettings& choice) {
   sim::Settings settings = choice.settings;
   settings.ruleHalfTime = choice.minutes * 60.0 / 2.0;
   settings.automaticKickOff = true;
@@ -149,7 +149,7 @@ std::string MatchWatcher::progress(const sim::Simulation& simulation) const {
 
 MatchResult playInProcess(const MatchSettings& choice, const std::string& dataFolder, int threads,
                           const MatchObservers& observers) {
-  sim::Settings settings = matchSettings(choice);
+  sim::Settings settings = simulationSettings(choice);
   settings.threads = threads;
   settings.threadPatience = 300;  // us: longer than what is done by one thread alone in a cycle
   sim::Simulation simulation(settings, choice.seed);

@@ -209,7 +209,7 @@ TEST(MatchWatcher, CountsAFallOnce) {
   MatchSettings choice = shortMatch(1);
   choice.left.players = choice.right.players = 1;
   choice.minutes = 1.0;
-  sim::Simulation simulation(matchSettings(choice), 1);
+  sim::Simulation simulation(simulationSettings(choice), 1);
   MatchWatcher watcher(choice);
   protocol::SceneEffector scene;
   protocol::InitEffector init;

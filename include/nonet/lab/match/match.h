@@ -42,7 +42,7 @@ struct MatchSettings {
 std::string matchTitle(const MatchSettings& choice);
 
 /// The settings of a match as chosen: half time, automatic kick-off, names of the teams.
-sim::Settings matchSettings(const MatchSettings& choice);
+sim::Settings simulationSettings(const MatchSettings& choice);
 
 /// One robot's agent as chosen.
 agent::AgentChoice agentChoice(const MatchSettings& choice, bool rightTeam, int unum);

@@ -1,4 +1,4 @@
-// One optimization as a folder: settings.json (what is optimized, with every seed), generations.jsonl (one
+// One optimization as a folder: config.json (what is optimized, with every seed), generations.jsonl (one
 // line each: every point, every seed, every value), checkpoint.json (written to a new file, then renamed),
 // best.toml (the best parameters so far with their provenance). A run that is killed at any point and resumed
 // ends in the same bytes as one that was not.
@@ -26,7 +26,7 @@ struct GenerationReport {
 class OptimizationRun {
  public:
   /// A new run; throws std::runtime_error if the folder holds one already, another process works on it, or
-  /// the settings makes no search (a step size of 0, a population of 1).
+  /// the settings make no search (a step size of 0, a population of 1).
   static OptimizationRun create(const std::string& folder, const OptimizationSettings& settings,
                                 const std::string& dataFolder);
   /// What the run in the folder was started with. Throws std::runtime_error that names the file.

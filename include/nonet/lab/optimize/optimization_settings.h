@@ -57,8 +57,8 @@ void setStart(OptimizationSettings& settings, const std::string& dataFolder,
 RestartScheme restartSchemeOf(const std::string& name);
 std::string nameOf(RestartScheme scheme);
 
-/// Fitness (higher is better) of a point of the settings's search space: what the evaluator's workers run,
-/// the same on every rank.
+/// Fitness (higher is better) of a point of the search space of the settings: what the evaluator's workers
+/// run, the same on every rank.
 Objective makeObjective(const OptimizationSettings& settings, const std::string& dataFolder);
 
 }  // namespace nonet::lab
