@@ -51,15 +51,15 @@ class TcpGame {
 
  private:
   sim::ServerSettings serverSettings() const {
-    sim::ServerSettings options;
-    options.agentPort = 0;
-    options.monitorPort = 0;
-    options.lockStep = lockStep_;
-    options.realTime = !lockStep_;
-    options.players = match_.left.players + match_.right.players;
-    options.monitorLog = match_.monitorLog;
-    options.endWithMatch = true;
-    return options;
+    sim::ServerSettings server;
+    server.agentPort = 0;
+    server.monitorPort = 0;
+    server.lockStep = lockStep_;
+    server.realTime = !lockStep_;
+    server.players = match_.left.players + match_.right.players;
+    server.monitorLog = match_.monitorLog;
+    server.endWithMatch = true;
+    return server;
   }
 
   void afterCycle(const sim::Simulation& simulation) {

@@ -42,40 +42,40 @@ void enter(std::vector<InProcessPlayer>& players, sim::Simulation& simulation, s
 
 }  // namespace
 
-std::string matchTitle(const MatchSettings& choice) {
-  if (choice.right.players == 0)
-    return fmt::format("{} alone, {} players", choice.left.name, choice.left.players);
-  return fmt::format("{} against {}, {} a side", choice.left.name, choice.right.name, choice.left.players);
+std::string matchTitle(const MatchSettings& match) {
+  if (match.right.players == 0)
+    return fmt::format("{} alone, {} players", match.left.name, match.left.players);
+  return fmt::format("{} against {}, {} a side", match.left.name, match.right.name, match.left.players);
 }
 
-sim::Settings simulationSettings(const MatchSettings& choice) {
-  sim::Settings settings = choice.settings;
-  settings.ruleHalfTime = choice.minutes * 60.0 / 2.0;
+sim::Settings simulationSettings(const MatchSettings& match) {
+  sim::Settings settings = match.settings;
+  settings.ruleHalfTime = match.minutes * 60.0 / 2.0;
   settings.automaticKickOff = true;
-  settings.waitBeforeKickOff = choice.kickOffWait;
-  settings.leftTeam = choice.left.name;
-  settings.rightTeam = choice.right.name;
+  settings.waitBeforeKickOff = match.kickOffWait;
+  settings.leftTeam = match.left.name;
+  settings.rightTeam = match.right.name;
   return settings;
 }
 
-agent::AgentChoice agentChoice(const MatchSettings& choice, bool rightTeam, int unum) {
-  const TeamSettings& team = rightTeam ? choice.right : choice.left;
+agent::AgentChoice agentChoice(const MatchSettings& match, bool rightTeam, int unum) {
+  const TeamSettings& team = rightTeam ? match.right : match.left;
   agent::AgentChoice agent;
   agent.unum = unum;
   agent.team = team.name;
   agent.robotType = agent::usualRobotType(unum);
-  agent.seed = agent::agentSeed(choice.seed, rightTeam, unum);
+  agent.seed = agent::agentSeed(match.seed, rightTeam, unum);
   agent.parameterFiles = team.parameterFiles;
   agent.assignments = team.assignments;
   return agent;
 }
 
-MatchWatcher::MatchWatcher(const MatchSettings& choice) {
-  result_.teamLeft = choice.left.name;
-  result_.teamRight = choice.right.name;
-  result_.seed = choice.seed;
+MatchWatcher::MatchWatcher(const MatchSettings& match) {
+  result_.teamLeft = match.left.name;
+  result_.teamRight = match.right.name;
+  result_.seed = match.seed;
   for (const bool rightTeam : {false, true}) {
-    const TeamSettings& team = rightTeam ? choice.right : choice.left;
+    const TeamSettings& team = rightTeam ? match.right : match.left;
     for (int unum = 1; unum <= team.players; ++unum) {
       PlayerRecord player;
       player.rightTeam = rightTeam;
@@ -85,7 +85,7 @@ MatchWatcher::MatchWatcher(const MatchSettings& choice) {
       result_.players.push_back(player);
     }
   }
-  if (choice.check) invariants_.emplace();
+  if (match.check) invariants_.emplace();
   stances_.assign(result_.players.size(), Stance::Unknown);
 }
 
@@ -147,23 +147,23 @@ std::string MatchWatcher::progress(const sim::Simulation& simulation) const {
                      result_.falls(true));
 }
 
-MatchResult playInProcess(const MatchSettings& choice, const std::string& dataFolder, int threads,
+MatchResult playInProcess(const MatchSettings& match, const std::string& dataFolder, int threads,
                           const MatchObservers& observers) {
-  sim::Settings settings = simulationSettings(choice);
+  sim::Settings settings = simulationSettings(match);
   settings.threads = threads;
   settings.threadPatience = 300;  // us: longer than what is done by one thread alone in a cycle
-  sim::Simulation simulation(settings, choice.seed);
-  MatchWatcher watcher(choice);
+  sim::Simulation simulation(settings, match.seed);
+  MatchWatcher watcher(match);
   std::vector<InProcessPlayer> players;
   for (const PlayerRecord& record : watcher.result().players) {
-    const agent::AgentChoice agent = agentChoice(choice, record.rightTeam, record.unum);
-    const std::string& own = record.rightTeam ? choice.right.dataFolder : choice.left.dataFolder;
+    const agent::AgentChoice agent = agentChoice(match, record.rightTeam, record.unum);
+    const std::string& own = record.rightTeam ? match.right.dataFolder : match.left.dataFolder;
     players.emplace_back().agent =
         std::make_unique<agent::Agent>(agent::makeAgentSettings(agent, own.empty() ? dataFolder : own));
   }
-  enter(players, simulation, choice.seed);
+  enter(players, simulation, match.seed);
   std::optional<sim::MonitorLog> monitorLog;
-  if (!choice.monitorLog.empty()) monitorLog.emplace(simulation, choice.monitorLog);
+  if (!match.monitorLog.empty()) monitorLog.emplace(simulation, match.monitorLog);
 
   // As over TCP, the agents think about the messages that beginCycle() sent while the physics goes on.
   const sim::SharedWork thoughts{players.size(), [&players](std::size_t i) {

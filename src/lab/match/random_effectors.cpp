@@ -54,12 +54,12 @@ sim::InvariantLimits limits(bool beams) {
 
 class RandomTeams {
  public:
-  explicit RandomTeams(const RandomEffectorsSettings& choice)
-      : random_(choice.seed),
-        simulation_(settings(choice), choice.seed),
-        beams_(choice.beams),
-        invariants_(limits(choice.beams)) {
-    for (int unum = 1; unum <= choice.players; ++unum) {
+  explicit RandomTeams(const RandomEffectorsSettings& settings)
+      : random_(settings.seed),
+        simulation_(simulationSettings(settings), settings.seed),
+        beams_(settings.beams),
+        invariants_(limits(settings.beams)) {
+    for (int unum = 1; unum <= settings.players; ++unum) {
       for (const bool right : {false, true}) {
         Player player;
         player.right = right;
@@ -90,11 +90,11 @@ class RandomTeams {
   const RandomEffectorsResult& soFar() const { return result_; }
 
  private:
-  static sim::Settings settings(const RandomEffectorsSettings& choice) {
+  static sim::Settings simulationSettings(const RandomEffectorsSettings& effectors) {
     sim::Settings settings;
     settings.automaticKickOff = true;
     settings.ruleHalfTime = 60.0;
-    settings.threads = choice.threads;
+    settings.threads = effectors.threads;
     return settings;
   }
 
@@ -194,10 +194,10 @@ class RandomTeams {
 
 }  // namespace
 
-RandomEffectorsResult playRandomEffectors(const RandomEffectorsSettings& choice,
+RandomEffectorsResult playRandomEffectors(const RandomEffectorsSettings& settings,
                                           const std::function<bool(const RandomEffectorsResult&)>& goOn) {
-  RandomTeams teams(choice);
-  const long cycles = std::lround(choice.minutes * 60.0 / kCycleTime);
+  RandomTeams teams(settings);
+  const long cycles = std::lround(settings.minutes * 60.0 / kCycleTime);
   bool more = true;
   while (teams.soFar().cycles < cycles && more) {
     teams.cycle();

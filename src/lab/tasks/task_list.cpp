@@ -73,14 +73,14 @@ void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set) {
 }
 
 CourseTask::CourseTask(std::string_view name, std::string_view description, std::string_view key,
-                       const CourseSettings& options)
-    : name_(name), description_(description), key_(key), options_(options) {
-  options_.mostFalls = kMostFalls;
+                       const CourseSettings& course)
+    : name_(name), description_(description), key_(key), course_(course) {
+  course_.mostFalls = kMostFalls;
 }
 
 TaskResult CourseTask::evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                                 const TaskSettings& settings) const {
-  const CourseResult course = runCourse(trialSettings(parameters, seed, settings), seed, options_);
+  const CourseResult course = runCourse(trialSettings(parameters, seed, settings), seed, course_);
   return {.fitness = course.reward,
           .measures = {{"falls", course.falls},
                        {"targets", course.targets},

@@ -18,7 +18,7 @@ TaskResult TimedCourseTask::evaluate(const agent::AgentParameters& parameters, s
                                      const TaskSettings& settings) const {
   const TrialSettings setup = trialSettings(parameters, seed, settings);
   const auto walk = [&](bool untilReached, bool changeSets) {
-    CourseSettings way = options();
+    CourseSettings way = course();
     way.untilReached = untilReached;
     way.changeSets = changeSets;
     return runCourse(setup, seed, way);

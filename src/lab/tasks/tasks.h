@@ -58,7 +58,7 @@ class CourseTask : public Task {
  public:
   /// `key`: the prefix of the parameters to move. The texts must outlive the task.
   CourseTask(std::string_view name, std::string_view description, std::string_view key,
-             const CourseSettings& options);
+             const CourseSettings& course);
 
   std::string_view name() const override { return name_; }
   std::string_view description() const override { return description_; }
@@ -67,13 +67,13 @@ class CourseTask : public Task {
                       const TaskSettings& settings) const override;
 
  protected:
-  const CourseSettings& options() const { return options_; }
+  const CourseSettings& course() const { return course_; }
 
  private:
   std::string_view name_;
   std::string_view description_;
   std::string_view key_;
-  CourseSettings options_;
+  CourseSettings course_;
 };
 
 /// The time for the course with the sets that the agent itself would choose. The course is walked three

@@ -16,18 +16,19 @@ constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as s
 
 }  // namespace
 
-Server::Implementation::Implementation(const Settings& settings, std::uint64_t s, const ServerSettings& o)
-    : options(o),
+Server::Implementation::Implementation(const Settings& settings, std::uint64_t s, const ServerSettings& given)
+    : serverSettings(given),
       seed(s),
       simulation(settings, s),
       work(asio::make_work_guard(io)),
-      agentAcceptor(listenOn(io, o.address, o.agentPort, "agents")),
-      admission(o.mostConnections, o.mostPerAddress),
-      monitors(io, simulation, o.address, o.monitorPort, Admission(o.mostConnections, o.mostPerAddress)),
+      agentAcceptor(listenOn(io, given.address, given.agentPort, "agents")),
+      admission(given.mostConnections, given.mostPerAddress),
+      monitors(io, simulation, given.address, given.monitorPort,
+               Admission(given.mostConnections, given.mostPerAddress)),
       signals(io),
-      lobbyOpen(o.players > 0) {
-  if (!o.monitorLog.empty()) log.emplace(simulation, o.monitorLog);
-  if (o.handleSignals) {
+      lobbyOpen(given.players > 0) {
+  if (!given.monitorLog.empty()) log.emplace(simulation, given.monitorLog);
+  if (given.handleSignals) {
     signals.add(SIGINT);
     signals.add(SIGTERM);
     signals.async_wait([this](std::error_code error, int signal) {
@@ -42,7 +43,7 @@ Server::Implementation::Implementation(const Settings& settings, std::uint64_t s
 // Server facts 1.2.
 void Server::Implementation::cycle() {
   pace();
-  if (options.lockStep) waitForAnswers();
+  if (serverSettings.lockStep) waitForAnswers();
   if (stopping) return;
   executeTrainerCommands();
   deliverCommands();
@@ -55,8 +56,9 @@ void Server::Implementation::cycle() {
   if (cycles % 2 == 0) statistics.droppedMessages += monitors.sendMessages();
   if (log) log->cycle();
   if (callback) callback(simulation);
-  if (!options.endWithMatch || !matchIsOver()) return;
-  if (options.lockStep) waitForAnswers();  // nobody's last message is cut off by the end of the connection
+  if (!serverSettings.endWithMatch || !matchIsOver()) return;
+  if (serverSettings.lockStep)
+    waitForAnswers();  // nobody's last message is cut off by the end of the connection
   stopping = true;
 }
 
@@ -65,7 +67,7 @@ void Server::Implementation::pace() {
   // Lock-step without a robot has nobody to wait for; real time keeps it from running away.
   const bool idle =
       std::none_of(agents.begin(), agents.end(), [](const auto& link) { return link->sensesSent > 0; });
-  if (!options.realTime && !(options.lockStep && idle)) {
+  if (!serverSettings.realTime && !(serverSettings.lockStep && idle)) {
     nextCycle = SteadyClock::now();
     return;
   }
@@ -78,7 +80,7 @@ void Server::Implementation::pace() {
 
 void Server::Implementation::waitForAnswers() {
   const auto deadline = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
-                                                 std::chrono::duration<double>(options.answerTimeout));
+                                                 std::chrono::duration<double>(serverSettings.answerTimeout));
   const auto allAnswered = [this] {
     return std::all_of(agents.begin(), agents.end(), [](const auto& link) {
       return !link->owesAnswer || link->givenUp || link->connection->dead() || link->hasAnswered();
@@ -95,7 +97,7 @@ void Server::Implementation::giveUpWaiting() {
     link->givenUp = true;
     ++statistics.timeouts;
     spdlog::warn("server: {} has not answered for {} s: the match goes on without waiting for it",
-                 describe(*link), options.answerTimeout);
+                 describe(*link), serverSettings.answerTimeout);
   }
 }
 
@@ -109,7 +111,7 @@ void Server::Implementation::deliverCommands() {
       if (received.effectors.syn && received.afterSense == link->sensesSent) {
         if (link->givenUp) spdlog::info("server: {} answers again", describe(*link));
         link->givenUp = false;
-        more = !options.lockStep || !link->owesAnswer;
+        more = !serverSettings.lockStep || !link->owesAnswer;
         link->owesAnswer = false;
       }
       simulation.actAsReceived(link->agent, received.effectors);
@@ -149,7 +151,7 @@ void Server::Implementation::sendSense(AgentLink& link, const protocol::Percept&
       spdlog::info("server: {} reads again, it lost {} messages", describe(link), link.dropped);
     link.dropped = 0;
     ++link.sensesSent;
-    link.owesAnswer = options.lockStep && !link.lobby;
+    link.owesAnswer = serverSettings.lockStep && !link.lobby;
     return;
   }
   if (link.connection->dead()) return;
@@ -159,7 +161,7 @@ void Server::Implementation::sendSense(AgentLink& link, const protocol::Percept&
 
 // In lock-step nobody can be silent unnoticed. By the clock the others play on; the log says who does not.
 void Server::Implementation::noticeSilence() {
-  if (options.lockStep) return;
+  if (serverSettings.lockStep) return;
   for (const auto& link : agents) {
     if (link->silent || link->sensesSent == 0 || SteadyClock::now() - link->heard < kSilence) continue;
     link->silent = true;
@@ -194,8 +196,8 @@ bool Server::Implementation::matchIsOver() {
   return simulation.match().playMode == protocol::PlayMode::GameOver && ++cyclesAfterEnd > kLinger;
 }
 
-Server::Server(const Settings& settings, std::uint64_t seed, const ServerSettings& options)
-    : implementation_(std::make_unique<Implementation>(settings, seed, options)) {}
+Server::Server(const Settings& settings, std::uint64_t seed, const ServerSettings& serverSettings)
+    : implementation_(std::make_unique<Implementation>(settings, seed, serverSettings)) {}
 
 Server::~Server() {
   for (const auto& link : implementation_->agents) link->connection->close();

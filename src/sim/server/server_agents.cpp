@@ -92,7 +92,7 @@ void Server::Implementation::lobbyMessage(AgentLink& link, const protocol::Effec
   const bool wasReady = link.lobby->ready();
   if (const protocol::Percept* answer = link.lobby->receive(message)) sendSense(link, *answer);
   if (wasReady || !link.lobby->ready()) return;
-  spdlog::info("server: {} of {} players are there", readyPlayers(), options.players);
+  spdlog::info("server: {} of {} players are there", readyPlayers(), serverSettings.players);
 }
 
 void Server::Implementation::waitInLobby() {
@@ -100,7 +100,7 @@ void Server::Implementation::waitInLobby() {
   io.poll();
   reap();
   executeTrainerCommands();
-  if (readyPlayers() >= options.players) startMatch();
+  if (readyPlayers() >= serverSettings.players) startMatch();
 }
 
 void Server::Implementation::startMatch() {

@@ -52,7 +52,7 @@ struct AgentLink {
 };
 
 struct Server::Implementation {
-  Implementation(const Settings& settings, std::uint64_t seed, const ServerSettings& o);
+  Implementation(const Settings& settings, std::uint64_t seed, const ServerSettings& given);
 
   void acceptAgents();
   void agentMessage(AgentLink& link, std::string_view text);
@@ -75,7 +75,7 @@ struct Server::Implementation {
   void executeTrainerCommands();
   bool matchIsOver();
 
-  ServerSettings options;
+  ServerSettings serverSettings;
   std::uint64_t seed;
   Simulation simulation;
   asio::io_context io;

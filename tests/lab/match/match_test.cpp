@@ -12,13 +12,13 @@ namespace nonet::lab {
 namespace {
 
 MatchSettings shortMatch(std::uint64_t seed) {
-  MatchSettings choice;
-  choice.left.players = 2;
-  choice.right.players = 2;
-  choice.seed = seed;
-  choice.minutes = 2.0 / 60.0;  // two halves of one second
-  choice.kickOffWait = 0.5;
-  return choice;
+  MatchSettings match;
+  match.left.players = 2;
+  match.right.players = 2;
+  match.seed = seed;
+  match.minutes = 2.0 / 60.0;  // two halves of one second
+  match.kickOffWait = 0.5;
+  return match;
 }
 
 TEST(Match, SeedsOfAgentsDiffer) {
@@ -52,9 +52,9 @@ TEST(Match, UsualTypesPassTheServersRules) {
 }
 
 TEST(Match, IsPlayedToTheEnd) {
-  MatchSettings choice = shortMatch(1);
-  choice.check = true;
-  const MatchResult result = playInProcess(choice, NONET_SOURCE_DIR, 1);
+  MatchSettings match = shortMatch(1);
+  match.check = true;
+  const MatchResult result = playInProcess(match, NONET_SOURCE_DIR, 1);
   EXPECT_EQ(result.violations, 0U) << result.invariants;
   EXPECT_TRUE(result.finished);
   EXPECT_NEAR(result.gameTime, 2.0, 0.05);
@@ -83,15 +83,15 @@ TEST(Match, NineAloneStandAndScore) {
   int goals = 0;
   constexpr int kMatches = 3;
   for (std::uint64_t seed = 1; seed <= kMatches; ++seed) {
-    MatchSettings choice;
-    choice.right.players = 0;
-    choice.seed = seed;
-    choice.minutes = 1.5;
+    MatchSettings match;
+    match.right.players = 0;
+    match.seed = seed;
+    match.minutes = 1.5;
     MatchObservers observers;
     observers.afterCycle = [](const sim::Simulation&, const MatchWatcher& watcher) {
       return watcher.result().gameTime < 45.0;
     };
-    const MatchResult result = playInProcess(choice, NONET_SOURCE_DIR, 2, observers);
+    const MatchResult result = playInProcess(match, NONET_SOURCE_DIR, 2, observers);
     falls += result.falls(false);
     goals += result.scoreLeft;
     EXPECT_EQ(result.scoreRight, 0);
@@ -102,11 +102,11 @@ TEST(Match, NineAloneStandAndScore) {
 
 // The goalie and ten others: nobody is refused, and by radio they come to as many different roles.
 TEST(Match, ElevenAgreeOnElevenRoles) {
-  MatchSettings choice;
-  choice.left.players = 11;
-  choice.right.players = 0;
-  choice.minutes = 1.0;
-  choice.kickOffWait = 2.0;
+  MatchSettings match;
+  match.left.players = 11;
+  match.right.players = 0;
+  match.minutes = 1.0;
+  match.kickOffWait = 2.0;
   std::map<sim::AgentHandle, team::Role> roles;
   int agreed = 0;
   int cycles = 0;
@@ -119,7 +119,7 @@ TEST(Match, ElevenAgreeOnElevenRoles) {
     agreed += different.size() == 11U ? 1 : 0;
     return ++cycles < 100;
   };
-  const MatchResult result = playInProcess(choice, NONET_SOURCE_DIR, 2, observers);
+  const MatchResult result = playInProcess(match, NONET_SOURCE_DIR, 2, observers);
   EXPECT_EQ(roles.size(), 11U);
   for (const PlayerRecord& player : result.players) EXPECT_TRUE(player.connected) << player.unum;
   EXPECT_GT(agreed, 80) << "of 100 cycles";
@@ -168,9 +168,9 @@ TEST(Match, LocalizationOfAllPlayersIsMeasuredAgainstTheSimulation) {
 TEST(Match, EverybodyKnowsTheOwnSideAtOnceAfterHalfTime) {
   // Vision comes in every third message, so half time is moved through all three places between two of them.
   for (int phase = 0; phase < 3; ++phase) {
-    MatchSettings choice = shortMatch(3);
-    choice.minutes = (3.0 + 2.0 * phase * kCycleTime) / 60.0;
-    choice.settings.changeSidesInSecondHalf = true;
+    MatchSettings match = shortMatch(3);
+    match.minutes = (3.0 + 2.0 * phase * kCycleTime) / 60.0;
+    match.settings.changeSidesInSecondHalf = true;
     // Torsos in the frames of their teams: after the last cycle, and one cycle before, which is what a
     // message shows when it is read.
     std::map<sim::AgentHandle, Vector2> now;
@@ -199,24 +199,24 @@ TEST(Match, EverybodyKnowsTheOwnSideAtOnceAfterHalfTime) {
           << "phase " << phase << ", agent " << thought.handle << ", " << thought.percept.time - halfTime
           << " s after half time";
     };
-    playInProcess(choice, NONET_SOURCE_DIR, 1, observers);
+    playInProcess(match, NONET_SOURCE_DIR, 1, observers);
     EXPECT_GT(checked, 300);
   }
 }
 
 // A robot that throws its legs forward falls, once, and is counted once however long it lies.
 TEST(MatchWatcher, CountsAFallOnce) {
-  MatchSettings choice = shortMatch(1);
-  choice.left.players = choice.right.players = 1;
-  choice.minutes = 1.0;
-  sim::Simulation simulation(simulationSettings(choice), 1);
-  MatchWatcher watcher(choice);
+  MatchSettings match = shortMatch(1);
+  match.left.players = match.right.players = 1;
+  match.minutes = 1.0;
+  sim::Simulation simulation(simulationSettings(match), 1);
+  MatchWatcher watcher(match);
   protocol::SceneEffector scene;
   protocol::InitEffector init;
   init.unum = 1;
-  init.team.assign(choice.left.name);
+  init.team.assign(match.left.name);
   const sim::AgentHandle faller = simulation.enter(scene, init);
-  init.team.assign(choice.right.name);
+  init.team.assign(match.right.name);
   simulation.enter(scene, init);
   for (int cycle = 0; cycle < 250; ++cycle) {
     protocol::Effectors effectors;

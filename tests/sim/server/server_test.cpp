@@ -24,21 +24,21 @@ namespace nonet::sim::test {
 namespace {
 
 ServerSettings lockStep() {
-  ServerSettings options;
-  options.address = "127.0.0.1";
-  options.agentPort = 0;
-  options.monitorPort = 0;
-  options.lockStep = true;
-  options.realTime = false;
-  return options;
+  ServerSettings serverSettings;
+  serverSettings.address = "127.0.0.1";
+  serverSettings.agentPort = 0;
+  serverSettings.monitorPort = 0;
+  serverSettings.lockStep = true;
+  serverSettings.realTime = false;
+  return serverSettings;
 }
 
 // A server that runs in its own thread until the end of the test.
 class Running {
  public:
-  explicit Running(const ServerSettings& options = lockStep(), const Settings& settings = {},
+  explicit Running(const ServerSettings& serverSettings = lockStep(), const Settings& settings = {},
                    std::uint64_t seed = 1)
-      : server(settings, seed, options), thread_([this] {
+      : server(settings, seed, serverSettings), thread_([this] {
           server.run();
           ended = true;
         }) {}
@@ -83,18 +83,18 @@ std::string play(std::uint16_t port, int type, int unum, std::string_view team, 
 
 TEST(ServerStart, ATakenPortIsNamed) {
   const Running first;
-  ServerSettings options = lockStep();
-  options.agentPort = first.server.agentPort();
-  const std::string port = std::to_string(options.agentPort);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.agentPort = first.server.agentPort();
+  const std::string port = std::to_string(serverSettings.agentPort);
   try {
-    const Server second(Settings{}, 1, options);
+    const Server second(Settings{}, 1, serverSettings);
     FAIL() << "two servers on one port";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr(port), ::testing::HasSubstr("taken")));
   }
-  options.agentPort = 0;
-  options.monitorPort = first.server.monitorPort();
-  EXPECT_THROW(Server(Settings{}, 1, options), std::runtime_error);
+  serverSettings.agentPort = 0;
+  serverSettings.monitorPort = first.server.monitorPort();
+  EXPECT_THROW(Server(Settings{}, 1, serverSettings), std::runtime_error);
 }
 
 TEST(ServerStart, EndsAtOnceWhenStopped) {
@@ -132,9 +132,9 @@ TEST(LockStep, OneAgentGetsEveryCycle) {
 }
 
 TEST(LockStep, SilenceStopsTheClockUntilTheTimeOut) {
-  ServerSettings options = lockStep();
-  options.answerTimeout = 0.5;
-  Running running(options);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.answerTimeout = 0.5;
+  Running running(serverSettings);
   Client silent(running.server.agentPort());
   silent.send(sceneText(0));
   ASSERT_TRUE(silent.receive());
@@ -186,9 +186,9 @@ std::string answerOf(std::size_t who, int cycle) {
 }
 
 std::vector<std::string> matchOverTcp(const std::vector<std::size_t>& arrival, int cycles) {
-  ServerSettings options = lockStep();
-  options.players = static_cast<int>(kTeams.size());
-  const Running running(options, Settings{}, 7);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.players = static_cast<int>(kTeams.size());
+  const Running running(serverSettings, Settings{}, 7);
   std::vector<std::string> logs(kTeams.size());
   std::vector<std::thread> threads;
   for (const std::size_t i : arrival) {
@@ -253,9 +253,9 @@ TEST(LockStep, AMatchIsTheSameWhateverTheOrderOfArrivalAndInProcess) {
 }
 
 TEST(LockStep, EighteenAgentsAtOnce) {
-  ServerSettings options = lockStep();
-  options.players = 18;
-  Running running(options);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.players = 18;
+  Running running(serverSettings);
   std::vector<std::thread> threads;
   std::atomic<int> fine{0};
   for (int i = 0; i < 18; ++i) {
@@ -272,9 +272,9 @@ TEST(LockStep, EighteenAgentsAtOnce) {
 }
 
 TEST(LockStep, AnOrdinaryLateComerMayJoinAReproducibleMatch) {
-  ServerSettings options = lockStep();
-  options.players = 1;
-  const Running running(options);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.players = 1;
+  const Running running(serverSettings);
   std::thread first([&] { play(running.server.agentPort(), 0, 1, "A", 300); });
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const std::string log = play(running.server.agentPort(), 0, 2, "A", 20);
@@ -345,9 +345,9 @@ TEST(BadClient, VanishesInTheMiddleOfAMessage) {
 }
 
 TEST(BadClient, StopsReadingAndAnswering) {
-  ServerSettings options = lockStep();
-  options.answerTimeout = 0.2;
-  Running running(options);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.answerTimeout = 0.2;
+  Running running(serverSettings);
   Client stopped(running.server.agentPort());
   stopped.send(sceneText(0));
   ASSERT_TRUE(stopped.receive());
@@ -359,9 +359,9 @@ TEST(BadClient, StopsReadingAndAnswering) {
 }
 
 TEST(BadClient, ASlowReaderLosesWholeMessagesOnly) {
-  ServerSettings options = lockStep();
-  options.answerTimeout = 0.1;
-  Running running(options);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.answerTimeout = 0.1;
+  Running running(serverSettings);
   Client slow(running.server.agentPort());
   slow.send(sceneText(0));
   // A quick one drives the clock until the slow one's buffers are full.
@@ -427,10 +427,10 @@ TEST(Monitor, KillsimEndsTheServerAndKillRemovesARobot) {
 }
 
 TEST(RealTime, KeepsTheClock) {
-  ServerSettings options = lockStep();
-  options.lockStep = false;
-  options.realTime = true;
-  const Running running(options);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.lockStep = false;
+  serverSettings.realTime = true;
+  const Running running(serverSettings);
   Client client(running.server.agentPort());
   client.send(sceneText(0));
   ASSERT_TRUE(client.receive());
@@ -443,10 +443,10 @@ TEST(RealTime, KeepsTheClock) {
 // All robots are built at the same place: without turns they would stand in each other, and a cycle take
 // seconds.
 TEST(RealTime, ManyThatComeAtOnceAreBornOneAfterTheOther) {
-  ServerSettings options = lockStep();
-  options.lockStep = false;
-  options.realTime = true;
-  const Running running(options);
+  ServerSettings serverSettings = lockStep();
+  serverSettings.lockStep = false;
+  serverSettings.realTime = true;
+  const Running running(serverSettings);
   constexpr int kMany = 6;
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < kMany; ++i) {
@@ -473,15 +473,15 @@ TEST(RealTime, ManyThatComeAtOnceAreBornOneAfterTheOther) {
 }
 
 TEST(Match, EndsTheServerWhenAsked) {
-  ServerSettings options = lockStep();
-  options.endWithMatch = true;
-  options.players = 1;
+  ServerSettings serverSettings = lockStep();
+  serverSettings.endWithMatch = true;
+  serverSettings.players = 1;
   Settings settings;
   settings.ruleHalfTime = 0.2;
   settings.singleHalfTime = true;
   settings.automaticKickOff = true;
   settings.waitBeforeKickOff = 0.1;
-  Running running(options, settings);
+  Running running(serverSettings, settings);
   const std::string log = play(running.server.agentPort(), 0, 1, "A", 400);
   EXPECT_THAT(log, ::testing::HasSubstr("(pm GameOver)"));
   EXPECT_THAT(log, ::testing::HasSubstr("LOST"));

@@ -39,13 +39,13 @@ struct MatchSettings {
 };
 
 /// Who plays, for people.
-std::string matchTitle(const MatchSettings& choice);
+std::string matchTitle(const MatchSettings& match);
 
 /// The settings of a match as chosen: half time, automatic kick-off, names of the teams.
-sim::Settings simulationSettings(const MatchSettings& choice);
+sim::Settings simulationSettings(const MatchSettings& match);
 
 /// One robot's agent as chosen.
-agent::AgentChoice agentChoice(const MatchSettings& choice, bool rightTeam, int unum);
+agent::AgentChoice agentChoice(const MatchSettings& match, bool rightTeam, int unum);
 
 /// What happened to one player.
 struct PlayerRecord {
@@ -91,7 +91,7 @@ struct MatchResult {
 /// Watches a simulation cycle by cycle. Needs nothing of the agents.
 class MatchWatcher {
  public:
-  explicit MatchWatcher(const MatchSettings& choice);
+  explicit MatchWatcher(const MatchSettings& match);
 
   void update(const sim::Simulation& simulation);
   /// So far.
@@ -129,7 +129,7 @@ struct MatchObservers {
 };
 
 /// Plays a match in this process. The result does not depend on `threads`.
-MatchResult playInProcess(const MatchSettings& choice, const std::string& dataFolder, int threads,
+MatchResult playInProcess(const MatchSettings& match, const std::string& dataFolder, int threads,
                           const MatchObservers& observers = {});
 
 }  // namespace nonet::lab

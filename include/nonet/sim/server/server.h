@@ -36,7 +36,7 @@ struct ServerSettings {
 class Server {
  public:
   /// Opens both ports. Throws std::runtime_error naming the port if one is taken, or the log file.
-  Server(const Settings& settings, std::uint64_t seed, const ServerSettings& options);
+  Server(const Settings& settings, std::uint64_t seed, const ServerSettings& serverSettings);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
