@@ -73,6 +73,13 @@ class Run {
     watch(last);
   }
 
+  // Ends the run with an exception of the thread that watches.
+  void fail(const std::exception_ptr& error) {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = error;
+    stop_ = true;
+  }
+
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
   }
@@ -133,7 +140,11 @@ bool playSeries(Series& series, int jobs, const PlayGame& play,
   Run run(series, play);
   std::vector<std::thread> threads;
   for (int i = 0; i < std::max(1, jobs); ++i) threads.emplace_back([&run] { run.work(); });
-  run.watch(watch);
+  try {
+    run.watch(watch);
+  } catch (...) {
+    run.fail(std::current_exception());
+  }
   for (std::thread& thread : threads) thread.join();
   run.rethrow();
   return series.open().empty();

@@ -2,10 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 namespace nonet::lab {
+namespace {
+
+// Opacity of a rectangle, by its share of the darkest one's count: the root keeps seldom visited places
+// visible.
+double darkness(double share) {
+  return std::sqrt(share);
+}
+
+}  // namespace
 
 std::string fieldFigure(const std::string& title, const FieldSize& field, const std::string& below,
                         const std::string& above) {
@@ -27,25 +37,31 @@ std::string fieldFigure(const std::string& title, const FieldSize& field, const 
   return svg + "</g>\n" + above + "</svg></figure>\n";
 }
 
-std::string heatMap(const std::vector<double>& values, int columns, int rows, const FieldSize& field,
-                    const std::string& color) {
-  const double most = values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-  if (most <= 0.0) return "";
-  const double width = field.length / columns;
-  const double height = field.width / rows;
-  std::string svg = fmt::format("<g fill='{}'>", color);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      // The root keeps seldom visited places visible.
-      const int place = row * columns + column;
-      const double share = std::sqrt(values[static_cast<std::size_t>(place)] / most);
-      if (share < 0.02) continue;
+std::string heatFigure(const std::string& title, const FieldSize& field, const HeatMap& map) {
+  const double most = map.counts.empty() ? 0.0 : *std::max_element(map.counts.begin(), map.counts.end());
+  if (most <= 0.0) return fieldFigure(title + ": never", field, "", "");
+  const double width = field.length / map.columns;
+  const double height = field.width / map.rows;
+  std::string svg = fmt::format("<g fill='{}'>", map.color);
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      const double opacity =
+          darkness(map.counts[static_cast<std::size_t>(row * map.columns + column)] / most);
+      if (opacity < 0.02) continue;
       svg += fmt::format("<rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}' opacity='{:.2f}'/>",
                          column * width - field.length / 2.0, field.width / 2.0 - (row + 1) * height, width,
-                         height, share);
+                         height, opacity);
     }
   }
-  return svg + "</g>\n";
+  const double all = std::accumulate(map.counts.begin(), map.counts.end(), 0.0);
+  std::string scale = "<br><small>of the time, on a square metre: ";
+  for (const double share : {0.04, 0.16, 0.36, 0.64, 1.0}) {
+    scale += fmt::format(
+        "<span style='display:inline-block;width:1.2em;height:0.8em;background:{};opacity:{:.2f}'></span> "
+        "{:.2g} % ",
+        map.color, darkness(share), 100.0 * share * most / all / (width * height));
+  }
+  return fieldFigure(title + scale + "</small>", field, svg + "</g>\n", "");
 }
 
 }  // namespace nonet::lab

@@ -16,8 +16,17 @@ struct FieldSize {
 std::string fieldFigure(const std::string& title, const FieldSize& field, const std::string& below,
                         const std::string& above);
 
-/// Squares whose darkness is the share of `values`, rows from the right touch line (y negative) to the left.
-std::string heatMap(const std::vector<double>& values, int columns, int rows, const FieldSize& field,
-                    const std::string& color);
+/// How often something was where: one number for each of `columns` x `rows` rectangles of the field, rows
+/// from the right touch line (y negative) to the left.
+struct HeatMap {
+  std::vector<double> counts;
+  int columns = 0;
+  int rows = 0;
+  std::string color;
+};
+
+/// The field with its rectangles the darker the more often, and a scale: shares of all counts on a square
+/// metre.
+std::string heatFigure(const std::string& title, const FieldSize& field, const HeatMap& map);
 
 }  // namespace nonet::lab

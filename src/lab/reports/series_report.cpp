@@ -201,11 +201,9 @@ std::string places(const Games& games) {
   const int columns = static_cast<int>(std::lround(field.length));
   const int rows = static_cast<int>(std::lround(field.width));
   std::string html = "<h2>Where they were in play (A plays to the right)</h2>\n";
-  html += fieldFigure("Ball", field, heatMap(ball, columns, rows, field, "#333"), "");
-  html +=
-      fieldFigure("Players of A", field, heatMap(players[0], kPlaceColumns, kPlaceRows, field, kColorA), "");
-  html +=
-      fieldFigure("Players of B", field, heatMap(players[1], kPlaceColumns, kPlaceRows, field, kColorB), "");
+  html += heatFigure("Ball", field, {ball, columns, rows, "#333"});
+  html += heatFigure("Players of A", field, {players[0], kPlaceColumns, kPlaceRows, kColorA});
+  html += heatFigure("Players of B", field, {players[1], kPlaceColumns, kPlaceRows, kColorB});
   return html;
 }
 

@@ -1,11 +1,13 @@
 #include "nonet/lab/match/series.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -125,6 +127,23 @@ TEST(Series, KilledAndResumedItEndsInTheSameBytes) {
     EXPECT_EQ(whole.text(file), killed.text(file)) << file;
     EXPECT_FALSE(whole.text(file).empty()) << file;
   }
+}
+
+// Whoever watches may fail, as a terminal that was closed does: the games end and the exception comes out.
+TEST(Series, AnExceptionOfTheWatcherEndsTheGamesAndComesOut) {
+  const Folder folder("watcher");
+  Series series(folder.path(), choiceOf(200));
+  const PlayGame slow = [](const SeriesGame& game, const std::function<bool(double)>& goOn) {
+    for (int i = 0; i < 100 && goOn(3.0 * i); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return fakeGame(game);
+  };
+  const auto fails = [](const SeriesProgress& now) -> bool {
+    if (now.gamesPlayed >= 2) throw std::runtime_error("nobody looks");
+    return true;
+  };
+  EXPECT_THROW(playSeries(series, 2, slow, fails), std::runtime_error);
+  EXPECT_GE(series.played(), 2);
+  EXPECT_LT(series.played(), 400) << "the other games are not played any more";
 }
 
 TEST(Series, TheSequentialTestStopsAtTheSameGameOnAnyNumberOfThreads) {
