@@ -45,8 +45,9 @@ std::string heatFigure(const std::string& title, const FieldSize& field, const H
   std::string svg = fmt::format("<g fill='{}'>", map.color);
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
-      const double opacity =
-          darkness(map.counts[static_cast<std::size_t>(row * map.columns + column)] / most);
+      const auto place = static_cast<std::size_t>(row) * static_cast<std::size_t>(map.columns) +
+                         static_cast<std::size_t>(column);
+      const double opacity = darkness(map.counts[place] / most);
       if (opacity < 0.02) continue;
       svg += fmt::format("<rect x='{:.2f}' y='{:.2f}' width='{:.2f}' height='{:.2f}' opacity='{:.2f}'/>",
                          column * width - field.length / 2.0, field.width / 2.0 - (row + 1) * height, width,
