@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-SessionSettings options(bool sync = true) {
+SessionSettings settings(bool sync = true) {
   AgentChoice choice;
   choice.unum = 5;
   choice.team = "Test";
@@ -31,7 +31,7 @@ std::string message(int cycle, const std::string& status = "") {
 const std::string kAccepted = "(unum 5) (team right) ";
 
 TEST(Session, FollowsTheHandshake) {
-  Session session(options());
+  Session session(settings());
   EXPECT_EQ(session.begin(), "(scene rsg/agent/nao/nao_hetero.rsg 1)(syn)");
   EXPECT_EQ(session.stage(), Session::Stage::Connecting);
   EXPECT_EQ(session.answer(), "") << "no message, no answer";
@@ -49,14 +49,14 @@ TEST(Session, FollowsTheHandshake) {
 }
 
 TEST(Session, LeavesSynAwayWhenTold) {
-  Session session(options(false));
+  Session session(settings(false));
   EXPECT_THAT(std::string(session.begin()), Not(HasSubstr("syn")));
   session.receive(message(0));
   EXPECT_THAT(std::string(session.answer()), Not(HasSubstr("syn")));
 }
 
 TEST(Session, CountsGapsInTheServersTime) {
-  Session session(options());
+  Session session(settings());
   session.begin();
   for (const int cycle : {0, 1, 2, 5, 6, 10}) session.receive(message(cycle));
   EXPECT_EQ(session.counts().lostCycles, 2 + 3);
@@ -65,7 +65,7 @@ TEST(Session, CountsGapsInTheServersTime) {
 // The server's clock is a 32-bit sum of steps, printed with two decimals.
 TEST(Session, DoesNotTakeRoundingForAGap) {
   for (const bool gap : {false, true}) {
-    Session session(options());
+    Session session(settings());
     session.begin();
     float time = 78.70F;
     for (int cycle = 0; cycle < 3000; ++cycle) {
@@ -81,7 +81,7 @@ TEST(Session, DoesNotTakeRoundingForAGap) {
 }
 
 TEST(Session, KeepsInitWhenItsMessageIsPassedOver) {
-  Session session(options());
+  Session session(settings());
   session.begin();
   session.receive(message(0));
   session.receive(message(1));
@@ -94,8 +94,8 @@ TEST(Session, KeepsInitWhenItsMessageIsPassedOver) {
 
 TEST(Session, KeepsTheBeamOfAPassedOverMessage) {
   // Two equal agents; one answers the message in which it wants to be beamed, the other one message later.
-  Session prompt(options());
-  Session late(options());
+  Session prompt(settings());
+  Session late(settings());
   std::string prompted;
   int beamCycle = -1;
   for (int cycle = 0; cycle < 20 && beamCycle < 0; ++cycle) {
@@ -114,7 +114,7 @@ TEST(Session, KeepsTheBeamOfAPassedOverMessage) {
 }
 
 TEST(Session, TellsARefusal) {
-  Session session(options());
+  Session session(settings());
   session.begin();
   for (int cycle = 0; cycle < Session::kRefusalPatience; ++cycle) {
     session.receive(message(cycle));
@@ -126,7 +126,7 @@ TEST(Session, TellsARefusal) {
 }
 
 TEST(Session, SurvivesAnything) {
-  Session session(options());
+  Session session(settings());
   session.begin();
   for (const std::string& text :
        {std::string(")))((("), std::string("\0\1\2", 3), std::string("(time (now nan))"),

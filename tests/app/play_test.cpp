@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kAccepted = "(unum 3) (team left) ";
 
-PlaySettings optionsFor(const FakeServer& server) {
+PlaySettings settingsFor(const FakeServer& server) {
   PlaySettings settings;
   settings.port = server.port();
   settings.wait = 1.0;
@@ -68,7 +68,7 @@ TEST(Play, GivesUpWithoutServer) {
   PlaySettings settings;
   {
     const FakeServer gone;
-    settings = optionsFor(gone);
+    settings = settingsFor(gone);
   }
   settings.wait = 0.5;
   const auto start = Clock::now();
@@ -81,7 +81,7 @@ TEST(Play, WaitsForALateServer) {
   PlaySettings settings;
   {
     const FakeServer first;
-    settings = optionsFor(first);
+    settings = settingsFor(first);
   }
   settings.wait = 5.0;
   Player player(settings);
@@ -94,7 +94,7 @@ TEST(Play, WaitsForALateServer) {
 
 TEST(Play, IntroducesItselfAndAnswersEachMessageOnce) {
   FakeServer server;
-  Player player(optionsFor(server));
+  Player player(settingsFor(server));
   server.accept();
   EXPECT_EQ(server.receive(), "(scene rsg/agent/nao/nao_hetero.rsg 2)(syn)");
   server.send(standingMessage(1.0));
@@ -118,7 +118,7 @@ TEST(Play, IntroducesItselfAndAnswersEachMessageOnce) {
 
 TEST(Play, SendsNoSynIfToldSo) {
   FakeServer server;
-  PlaySettings settings = optionsFor(server);
+  PlaySettings settings = settingsFor(server);
   settings.session.sync = false;
   settings.rescue = false;
   settings.wait = 5.0;
@@ -134,7 +134,7 @@ TEST(Play, SendsNoSynIfToldSo) {
 
 TEST(Play, FreesAHangingServer) {
   FakeServer server;
-  PlaySettings settings = optionsFor(server);
+  PlaySettings settings = settingsFor(server);
   settings.wait = 30.0;
   Player player(settings);
   server.accept();
@@ -156,7 +156,7 @@ TEST(Play, FreesAHangingServer) {
 
 TEST(Play, TellsARefusal) {
   FakeServer server;
-  Player player(optionsFor(server));
+  Player player(settingsFor(server));
   server.accept();
   server.receive();
   for (int i = 0; i <= agent::Session::kRefusalPatience; ++i) {
@@ -168,7 +168,7 @@ TEST(Play, TellsARefusal) {
 
 TEST(Play, GivesUpOnASillyLength) {
   FakeServer server;
-  Player player(optionsFor(server));
+  Player player(settingsFor(server));
   server.accept();
   server.receive();
   server.sendRaw("\x7f\xff\xff\xff garbage");
@@ -177,7 +177,7 @@ TEST(Play, GivesUpOnASillyLength) {
 
 TEST(Play, SurvivesGarbageInMessages) {
   FakeServer server;
-  Player player(optionsFor(server));
+  Player player(settingsFor(server));
   server.accept();
   server.receive();
   server.send(standingMessage(1.0));
@@ -193,7 +193,7 @@ TEST(Play, SurvivesGarbageInMessages) {
 TEST(Play, AnswersOnlyTheNewestAndReplaysTheSame) {
   const std::string log = temporaryFile("nonet_play_newest");
   FakeServer server;
-  PlaySettings settings = optionsFor(server);
+  PlaySettings settings = settingsFor(server);
   settings.record = log;
   settings.recordHeader = agent::logHeader(settings.session.agent, "test");
   Player player(settings);
@@ -213,9 +213,9 @@ TEST(Play, AnswersOnlyTheNewestAndReplaysTheSame) {
   server.close();
   EXPECT_EQ(player.wait(), PlayExit::ServerGone);
 
-  lab::ReplaySettings replayOptions;
-  replayOptions.dataFolder = NONET_SOURCE_DIR;
-  const lab::ReplayReport report = lab::replay(log, replayOptions);
+  lab::ReplaySettings replaySettings;
+  replaySettings.dataFolder = NONET_SOURCE_DIR;
+  const lab::ReplayReport report = lab::replay(log, replaySettings);
   EXPECT_EQ(report.counts.messages, 7);
   EXPECT_EQ(report.counts.passedOver, 4);
   EXPECT_EQ(report.effectorDifferences, 0);
@@ -226,7 +226,7 @@ TEST(Play, AnswersOnlyTheNewestAndReplaysTheSame) {
 TEST(Play, EndsCleanlyOnSigterm) {
   const std::string log = temporaryFile("nonet_play_sigterm");
   FakeServer server;
-  PlaySettings settings = optionsFor(server);
+  PlaySettings settings = settingsFor(server);
   settings.record = log;
   settings.recordHeader = agent::logHeader(settings.session.agent, "test");
   Player player(settings);

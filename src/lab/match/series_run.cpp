@@ -57,8 +57,24 @@ class Run {
     }
   }
 
-  // Until all threads have nothing left to do.
+  // Until all threads have nothing left to do; an exception of `watch` ends the run.
   void watch(const std::function<bool(const SeriesProgress&)>& watch) {
+    try {
+      tell(watch);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      fail();
+    }
+  }
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  bool over() const { return running_ == 0 && (stop_ || next_ == games_.size()); }
+
+  void tell(const std::function<bool(const SeriesProgress&)>& watch) {
     std::unique_lock lock(mutex_);
     while (!over()) {
       const SeriesProgress now = progress();
@@ -73,19 +89,11 @@ class Run {
     watch(last);
   }
 
-  // Ends the run with an exception of the thread that watches.
-  void fail(const std::exception_ptr& error) {
-    const std::lock_guard lock(mutex_);
-    if (!error_) error_ = error;
+  // In a handler, under the lock: the run ends, and the first exception comes out of it.
+  void fail() {
+    if (!error_) error_ = std::current_exception();
     stop_ = true;
   }
-
-  void rethrow() const {
-    if (error_) std::rethrow_exception(error_);
-  }
-
- private:
-  bool over() const { return running_ == 0 && (stop_ || next_ == games_.size()); }
 
   void playOne(std::size_t i) {
     try {
@@ -101,8 +109,7 @@ class Run {
       if (series_.settings().sequential && series_.result().verdict != Verdict::Open) stop_ = true;
     } catch (...) {
       const std::lock_guard lock(mutex_);
-      if (!error_ && !stop_) error_ = std::current_exception();
-      stop_ = true;
+      if (!stop_) fail();
     }
   }
 
@@ -140,11 +147,7 @@ bool playSeries(Series& series, int jobs, const PlayGame& play,
   Run run(series, play);
   std::vector<std::thread> threads;
   for (int i = 0; i < std::max(1, jobs); ++i) threads.emplace_back([&run] { run.work(); });
-  try {
-    run.watch(watch);
-  } catch (...) {
-    run.fail(std::current_exception());
-  }
+  run.watch(watch);
   for (std::thread& thread : threads) thread.join();
   run.rethrow();
   return series.open().empty();

@@ -57,8 +57,8 @@ void Server::Implementation::cycle() {
   if (log) log->cycle();
   if (callback) callback(simulation);
   if (!serverSettings.endWithMatch || !matchIsOver()) return;
-  if (serverSettings.lockStep)
-    waitForAnswers();  // nobody's last message is cut off by the end of the connection
+  // Nobody's last message is cut off by the end of the connection.
+  if (serverSettings.lockStep) waitForAnswers();
   stopping = true;
 }
 

@@ -40,7 +40,7 @@ class Folder {
   fs::path path_;
 };
 
-SeriesSettings choiceOf(int pairs) {
+SeriesSettings settingsOf(int pairs) {
   SeriesSettings settings;
   settings.a.name = "A";
   settings.b.name = "B";
@@ -67,7 +67,7 @@ const auto kGoOn = [](const SeriesProgress&) { return true; };
 
 TEST(Series, CountsWhatWasPlayed) {
   const Folder folder("count");
-  Series series(folder.path(), choiceOf(7));
+  Series series(folder.path(), settingsOf(7));
   EXPECT_EQ(series.open().size(), 14U);
   EXPECT_TRUE(playSeries(series, 3, kFake, kGoOn));
   const SeriesResult result = series.finish();
@@ -90,7 +90,7 @@ TEST(Series, CountsWhatWasPlayed) {
 
 // A goes left first; both games of a pair share their seed, and no other pair has it.
 TEST(Series, GamesComeInPairs) {
-  const SeriesSettings settings = choiceOf(3);
+  const SeriesSettings settings = settingsOf(3);
   for (int pair = 0; pair < 3; ++pair) {
     const SeriesGame first = gameOf(settings, 2 * pair);
     const SeriesGame second = gameOf(settings, 2 * pair + 1);
@@ -110,7 +110,7 @@ TEST(Series, KilledAndResumedItEndsInTheSameBytes) {
   const Folder whole("whole");
   const Folder killed("killed");
   for (const Folder* folder : {&whole, &killed}) {
-    SeriesSettings settings = choiceOf(10);
+    SeriesSettings settings = settingsOf(10);
     if (folder == &killed) {
       Series series(folder->path(), settings);
       for (const int index : {0, 3, 1, 7}) series.add(fakeGame(gameOf(settings, index)));
@@ -132,7 +132,7 @@ TEST(Series, KilledAndResumedItEndsInTheSameBytes) {
 // Whoever watches may fail, as a terminal that was closed does: the games end and the exception comes out.
 TEST(Series, AnExceptionOfTheWatcherEndsTheGamesAndComesOut) {
   const Folder folder("watcher");
-  Series series(folder.path(), choiceOf(200));
+  Series series(folder.path(), settingsOf(200));
   const PlayGame slow = [](const SeriesGame& game, const std::function<bool(double)>& goOn) {
     for (int i = 0; i < 100 && goOn(3.0 * i); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return fakeGame(game);
@@ -149,7 +149,7 @@ TEST(Series, AnExceptionOfTheWatcherEndsTheGamesAndComesOut) {
 TEST(Series, TheSequentialTestStopsAtTheSameGameOnAnyNumberOfThreads) {
   const Folder one("one");
   const Folder four("four");
-  SeriesSettings settings = choiceOf(400);
+  SeriesSettings settings = settingsOf(400);
   settings.sequential = SequentialBounds{0.0, 0.5};
   for (const Folder* folder : {&one, &four}) {
     Series series(folder->path(), settings);
@@ -164,7 +164,7 @@ TEST(Series, TheSequentialTestStopsAtTheSameGameOnAnyNumberOfThreads) {
 
 TEST(Series, OtherGamesAreNotMixedIn) {
   const Folder folder("other");
-  SeriesSettings settings = choiceOf(2);
+  SeriesSettings settings = settingsOf(2);
   { const Series series(folder.path(), settings); }
   settings.pairs = 5;
   EXPECT_EQ(Series(folder.path(), settings).open().size(), 10U) << "more pairs are the same series";
@@ -191,7 +191,7 @@ TEST(Series, AChangedSideHasAnotherFingerprint) {
 
 TEST(Series, AnErrorInAGameEndsTheSeries) {
   const Folder folder("error");
-  Series series(folder.path(), choiceOf(5));
+  Series series(folder.path(), settingsOf(5));
   const PlayGame fails = [](const SeriesGame& game, const std::function<bool(double)>&) {
     if (game.pair == 2) throw std::runtime_error("no server");
     return fakeGame(game);
@@ -242,7 +242,7 @@ TEST(Series, TheInitialWalkIsTheCodesOwn) {
 // The same team on both sides: the second game of a pair is the first with the names exchanged, so that every
 // pair is a tie in sum. Another seed is another game.
 TEST(Series, ATeamAgainstItselfInThisProcess) {
-  SeriesSettings settings = choiceOf(2);
+  SeriesSettings settings = settingsOf(2);
   settings.players = 2;
   settings.minutes = 2.0 / 60.0;
   settings.kickOffWait = 0.5;
@@ -260,7 +260,7 @@ TEST(Series, ATeamAgainstItselfInThisProcess) {
 TEST(Series, OverlaysAreTriedBeforeTheFirstGame) {
   const Folder folder("overlay");
   fs::create_directories(folder.path());
-  SeriesSettings settings = choiceOf(1);
+  SeriesSettings settings = settingsOf(1);
   settings.a.assignments = {"team.noSuchThing=1"};
   EXPECT_THROW(writeOverlays(settings, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
   settings.a.assignments = {"nonsense"};
