@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Format, include rules, citations and clang-tidy over the sources.
-# scripts/check.sh [format|includes|citations|tidy]...; default: all.
+# Format, include rules, citations and clang-tidy over the sources, and the scripts' own tests.
+# scripts/check.sh [format|includes|citations|scripts|tidy]...; default: all.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 checks=("$@")
-[ ${#checks[@]} -gt 0 ] || checks=(format includes citations tidy)
+[ ${#checks[@]} -gt 0 ] || checks=(format includes citations scripts tidy)
 scripts/setup.sh
 
 for check in "${checks[@]}"; do
@@ -21,12 +21,15 @@ for check in "${checks[@]}"; do
       python3 scripts/check_citations.py --self-test
       python3 scripts/check_citations.py
       ;;
+    scripts)
+      python3 scripts/screen.py --self-test
+      ;;
     tidy)
       [ -f build/dev/compile_commands.json ] || cmake --preset dev >/dev/null
       python3 scripts/tidy.py --build build/dev
       ;;
     *)
-      echo "check: unknown check '$check' (format, includes, citations, tidy)" >&2
+      echo "check: unknown check '$check' (format, includes, citations, scripts, tidy)" >&2
       exit 2
       ;;
   esac

@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""Plays games in which each of many changes is made or not by the throw of a coin, and tells what each of them did.
+
+  python3 scripts/screen.py CHANGES --out logs/screen --pairs 200
+  python3 scripts/screen.py CHANGES --out logs/screen --against own wall ../before --share 0.3
+  python3 scripts/screen.py --out logs/screen                                only the table of what is there
+
+A line of CHANGES is a name and the parameters of side A that make the change; "#" begins a comment:
+
+  closer   team.ball.behindBall=0.14m
+  charge   team.charging.speed=0.45
+  backsUp  team.formation.firstBackFromGoal=5m team.formation.secondBackFromGoal=8m
+
+Thirty changes cost as many games as one: every game tells of all of them. The effects, in goals (for minus against)
+per ten minutes, are those of least squares with a constant for each opponent; beside them the standard error. Of thirty
+changes without any effect one or two show two standard errors, so what is found here is then played alone, by
+`nonet series --sprt`. No two changes may set the same parameter. A screening that was stopped goes on with the same
+command. Games are played on the quick stepper unless --exact is given."""
+import argparse
+import concurrent.futures
+import json
+import math
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import threading
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def read_changes(path):
+    """{name: [assignment, ...]}; ends the program at a line that cannot be used."""
+    changes, owner = {}, {}
+    for number, line in enumerate(pathlib.Path(path).read_text().splitlines(), 1):
+        name, *assignments = line.split("#")[0].split() or [None]
+        if name is None:
+            continue
+        if not assignments or any("=" not in a for a in assignments):
+            sys.exit(f"{path}:{number}: a change is a name and key=value, one or more")
+        if name in changes:
+            sys.exit(f"{path}:{number}: '{name}' is there twice")
+        for key in (a.split("=")[0] for a in assignments):
+            if owner.setdefault(key, name) != name:
+                sys.exit(f"{path}:{number}: '{owner[key]}' sets {key} too; no two changes may set the same parameter")
+        changes[name] = assignments
+    if not changes:
+        sys.exit(f"{path}: no change in it")
+    return changes
+
+
+def drawn(changes, pair, share):
+    """The changes of a pair: the same whoever asks, and whenever."""
+    chance = random.Random(pair)
+    return [name for name in changes if chance.random() < share]
+
+
+def solve(matrix, columns):
+    """Gauss-Jordan with pivots: X with matrix X = columns; a direction without information ends the program."""
+    n = len(matrix)
+    rows = [list(a) + list(b) for a, b in zip(matrix, columns)]
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda r: abs(rows[r][i]))
+        if abs(rows[pivot][i]) < 1e-9:
+            raise ArithmeticError("too few games to tell the changes apart")
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        rows[i] = [value / rows[i][i] for value in rows[i]]
+        for r in range(n):
+            if r != i and rows[r][i]:
+                factor = rows[r][i]
+                rows[r] = [a - factor * b for a, b in zip(rows[r], rows[i])]
+    return [row[n:] for row in rows]
+
+
+def effects(games, names, opponents):
+    """games: (opponent, changes made, goal difference); [(name, effect, standard error)], in goals of such a game."""
+    design = [[float(g[0] == o) for o in opponents] + [float(n in g[1]) for n in names] for g in games]
+    width = len(opponents) + len(names)
+    if len(games) <= width:
+        raise ArithmeticError(f"{len(games)} games; more than {width} are needed")
+    normal = [[sum(x[i] * x[j] for x in design) for j in range(width)] for i in range(width)]
+    unit = [[float(i == j) for j in range(width)] for i in range(width)]
+    inverse = solve(normal, unit)
+    moments = [sum(x[i] * g[2] for x, g in zip(design, games)) for i in range(width)]
+    fit = [sum(a * b for a, b in zip(row, moments)) for row in inverse]
+    rest = sum((g[2] - sum(a * b for a, b in zip(x, fit))) ** 2 for x, g in zip(design, games))
+    variance = rest / (len(games) - width)
+    return [(n, fit[i], math.sqrt(variance * inverse[i][i])) for i, n in enumerate(names, len(opponents))]
+
+
+def play(pair, made, opponent, changes, settings):
+    """One pair of games by `nonet series`; its record, or the text of what went wrong."""
+    folder = settings.out / "pairs" / str(pair)
+    command = [settings.nonet, "series", "own", opponent, "--pairs", "1", "--jobs", "1", "--seed", str(pair),
+               "--minutes", str(settings.minutes), "--out", str(folder)]
+    command += [] if settings.exact else ["--set", "QuickSolver=true"]
+    assignments = [a for name in made for a in changes[name]]
+    command += ["--a-set", *assignments] if assignments else []
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        return (done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1]
+    lines = [json.loads(line) for line in (folder / "matches.jsonl").read_text().splitlines()]
+    return {"pair": pair, "against": opponent, "changes": made, "minutes": settings.minutes,
+            "goals": [[line["score_a"], line["score_b"]] for line in lines]}
+
+
+def play_all(changes, settings, done):
+    """Plays what is missing of the pairs; each is written as it ends."""
+    records = settings.out / "pairs.jsonl"
+    lock, stop = threading.Lock(), threading.Event()
+    missing = [p for p in range(settings.seed, settings.seed + settings.pairs) if p not in done]
+    left = [len(missing)]
+
+    def one(pair):
+        if stop.is_set():
+            return
+        opponent = settings.against[pair % len(settings.against)]
+        record = play(pair, drawn(changes, pair, settings.share), opponent, changes, settings)
+        with lock:
+            if isinstance(record, str):
+                stop.set()
+                raise RuntimeError(record)
+            with records.open("a") as file:
+                file.write(json.dumps(record) + "\n")
+            left[0] -= 1
+            print(f"{len(missing) - left[0]} of {len(missing)} pairs", file=sys.stderr, flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(settings.jobs) as pool:
+        try:
+            for result in concurrent.futures.as_completed([pool.submit(one, pair) for pair in missing]):
+                result.result()
+        except (RuntimeError, KeyboardInterrupt) as trouble:
+            stop.set()
+            sys.exit(f"stopped: {trouble or 'interrupted'}; the same command goes on")
+
+
+def read_records(path):
+    records = []
+    for line in filter(None, path.read_text().splitlines() if path.exists() else []):
+        try:
+            records.append(json.loads(line))
+        except json.JSONDecodeError:
+            print(f"{path}: a torn line is left out", file=sys.stderr)
+    return records
+
+
+def table(records, names):
+    games = [(r["against"], set(r["changes"]), 10 / r["minutes"] * (a - b)) for r in records for a, b in r["goals"]]
+    opponents = sorted({g[0] for g in games})
+    found = effects(games, names, opponents)
+    lines = [f"{len(games)} games; goals per ten minutes that each change adds, standard error, their ratio"]
+    for name, effect, error in sorted(found, key=lambda e: -e[1] / max(e[2], 1e-9)):
+        made = sum(name in g[1] for g in games)
+        lines.append(f"{name:16} {effect:+6.2f} {error:5.2f} {effect / max(error, 1e-9):+5.1f}   in {made} games")
+    return "\n".join(lines)
+
+
+def self_test():
+    """Effects that are known are found within their errors; so are none where there are none."""
+    names = [f"c{i}" for i in range(12)]
+    truth = {"c3": 1.0, "c7": -0.6}
+    changes = {name: [f"{name}=1"] for name in names}
+    chance, games, scores = random.Random(5), [], []
+    for pair in range(400):
+        made, opponent = set(drawn(changes, pair, 0.4)), ("weak", "strong")[pair % 2]
+        mean = (3.0 if opponent == "weak" else 0.5) + sum(truth.get(n, 0) for n in made)
+        games += [(opponent, made, chance.gauss(mean, 1.2)) for _ in range(2)]
+    for name, effect, error in effects(games, names, ["weak", "strong"]):
+        scores.append((effect - truth.get(name, 0)) / error)
+        assert 0.06 < error < 0.12, (name, error)
+    assert max(map(abs, scores)) < 3.5, scores
+    assert 0.4 < math.sqrt(sum(s * s for s in scores) / len(scores)) < 1.6, scores
+    exact = [("a", {"x"} if i % 2 else set(), 2.0 + 3.0 * (i % 2)) for i in range(9)]
+    assert abs(effects(exact, ["x"], ["a"])[0][1] - 3) < 1e-9
+    for few in (games[:5], [("a", {"x"}, 1.0)] * 9):
+        try:
+            effects(few, ["x"], ["a"])
+        except ArithmeticError:
+            continue
+        raise AssertionError("games that tell nothing were not refused")
+    print("screen: known effects found")
+
+
+def screen(settings):
+    changes = read_changes(settings.changes)
+    plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
+            "exact": settings.exact}
+    settings.out.mkdir(parents=True, exist_ok=True)
+    kept = settings.out / "plan.json"
+    if kept.exists() and json.loads(kept.read_text()) != plan:
+        sys.exit(f"{settings.out} holds another screening; name another --out, or the same changes and options")
+    kept.write_text(json.dumps(plan, indent=1) + "\n")
+    records = settings.out / "pairs.jsonl"
+    done = {record["pair"] for record in read_records(records)}
+    if records.exists() and not records.read_text().endswith("\n"):
+        with records.open("a") as file:
+            file.write("\n")
+    play_all(changes, settings, done)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("changes", nargs="?", help="file with the changes")
+    parser.add_argument("--out", type=pathlib.Path, help="folder; a screening that is there already goes on")
+    parser.add_argument("--pairs", type=int, default=100, help="pairs of games (100)")
+    parser.add_argument("--minutes", type=float, default=3, help="game time of one game (3)")
+    parser.add_argument("--against", nargs="+", default=["own", "wall"], help="sides B, in turn (own wall)")
+    parser.add_argument("--share", type=float, default=0.5, help="of the pairs in which a change is made (0.5)")
+    parser.add_argument("--seed", type=int, default=1, help="of the first pair; each has the next one (1)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="pairs at a time (one per core)")
+    parser.add_argument("--exact", action="store_true", help="the exact stepper; four times slower")
+    parser.add_argument("--nonet", default=str(ROOT / "build/release/nonet"), help="the program")
+    parser.add_argument("--self-test", action="store_true")
+    settings = parser.parse_args()
+    if settings.self_test:
+        return self_test()
+    if not settings.out:
+        parser.error("needs --out")
+    if settings.changes:
+        screen(settings)
+    elif not (settings.out / "plan.json").exists():
+        sys.exit(f"{settings.out}: no screening there; name a file with changes")
+    try:
+        print(table(read_records(settings.out / "pairs.jsonl"),
+                    list(json.loads((settings.out / "plan.json").read_text())["changes"])))
+    except ArithmeticError as trouble:
+        sys.exit(f"{trouble}; play more pairs")
+
+
+if __name__ == "__main__":
+    main()
