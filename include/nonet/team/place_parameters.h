@@ -12,11 +12,11 @@ struct FormationParameters {
   double forwardAhead = 2.0;
   double forwardAside = 2.5;
   double wingBehind = 2.5;
-  double wingAside = 3.0;
-  double stopperBehind = 2.5;
+  double wingAside = 2.0;
+  double stopperBehind = 3.5;
   double supporterBehind = 4.0;
-  double firstBackFromGoal = 3.0;
-  double secondBackFromGoal = 5.5;
+  double firstBackFromGoal = 4.0;
+  double secondBackFromGoal = 7.0;
   double backAside = 0.7;
   double touchLineMargin = 0.7;
   double apart = 1.0;
@@ -133,7 +133,7 @@ struct BeamParameters {
 
 /// Walking slowly into opponents, as the referee wants it (charging.h).
 struct ChargingParameters {
-  double speed = 0.3;
+  double speed = 0.45;
   double reach = 0.5;
   double lead = 0.05;
   double closing = 0.3;
@@ -145,8 +145,9 @@ struct ChargingParameters {
     visit({"speed",
            Unit::MetrePerSecond,
            {0, 1},
-           search(0, 0.4),
-           "Speed at which one comes into contact: fouls begin at 0.4; 0: nobody slows down"},
+           search(0, 0.6),
+           "Speed at which one comes into contact: fouls begin at 0.4, but being late costs more than a foul "
+           "now and then; 0: nobody slows down"},
           self.speed);
     visit({"reach", Unit::Metre, {0, 2}, search(0.3, 0.8), "Opponents so near are about to be touched"},
           self.reach);
