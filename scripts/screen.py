@@ -90,7 +90,7 @@ def effects(games, names, opponents):
 
 
 def play(pair, made, opponent, changes, settings):
-    """One pair of games by `nonet series`; its record, or the text of what went wrong."""
+    """One pair of games by `nonet series`: its record."""
     folder = settings.out / "pairs" / str(pair)
     command = [settings.nonet, "series", "own", opponent, "--pairs", "1", "--jobs", "1", "--seed", str(pair),
                "--minutes", str(settings.minutes), "--out", str(folder)]
@@ -99,7 +99,7 @@ def play(pair, made, opponent, changes, settings):
     command += ["--a-set", *assignments] if assignments else []
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
-        return (done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1]
+        raise RuntimeError((done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1])
     lines = [json.loads(line) for line in (folder / "matches.jsonl").read_text().splitlines()]
     return {"pair": pair, "against": opponent, "changes": made, "minutes": settings.minutes,
             "goals": [[line["score_a"], line["score_b"]] for line in lines]}
@@ -107,29 +107,23 @@ def play(pair, made, opponent, changes, settings):
 
 def play_all(changes, settings, done):
     """Plays what is missing of the pairs; each is written as it ends."""
-    records = settings.out / "pairs.jsonl"
-    lock, stop = threading.Lock(), threading.Event()
+    stop = threading.Event()
     missing = [p for p in range(settings.seed, settings.seed + settings.pairs) if p not in done]
-    left = [len(missing)]
 
     def one(pair):
         if stop.is_set():
-            return
+            return None
         opponent = settings.against[pair % len(settings.against)]
-        record = play(pair, drawn(changes, pair, settings.share), opponent, changes, settings)
-        with lock:
-            if isinstance(record, str):
-                stop.set()
-                raise RuntimeError(record)
-            with records.open("a") as file:
-                file.write(json.dumps(record) + "\n")
-            left[0] -= 1
-            print(f"{len(missing) - left[0]} of {len(missing)} pairs", file=sys.stderr, flush=True)
+        return play(pair, drawn(changes, pair, settings.share), opponent, changes, settings)
 
     with concurrent.futures.ThreadPoolExecutor(settings.jobs) as pool:
         try:
-            for result in concurrent.futures.as_completed([pool.submit(one, pair) for pair in missing]):
-                result.result()
+            games = concurrent.futures.as_completed([pool.submit(one, pair) for pair in missing])
+            for number, ended in enumerate(games, 1):
+                record = json.dumps(ended.result())
+                with (settings.out / "pairs.jsonl").open("a") as file:
+                    file.write(record + "\n")
+                print(f"{number} of {len(missing)} pairs", file=sys.stderr, flush=True)
         except (RuntimeError, KeyboardInterrupt) as trouble:
             stop.set()
             sys.exit(f"stopped: {trouble or 'interrupted'}; the same command goes on")
