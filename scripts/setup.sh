@@ -10,7 +10,8 @@ packages=(
   libzstd-dev zlib1g-dev                                 # log files
   libboost-dev                                           # Student's t distribution
   libopenmpi-dev openmpi-bin libpagmo-dev                # distributed training; CMA-ES to compare ours with
-  libgtest-dev libgmock-dev libbenchmark-dev libsexp-dev # tests and benchmarks
+  libgtest-dev libgmock-dev libbenchmark-dev             # tests and benchmarks
+  libsexp-dev libdlib-dev                                # what benchmarks compare with
   libjs-three                                            # the viewer's 3D graphics
   clang clang-format clang-tidy libclang-rt-14-dev       # checks and fuzzing
   python3

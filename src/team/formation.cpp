@@ -71,8 +71,8 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
   }
 }
 
-std::array<Vector2, kMaxAssigned> usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
-                                              const FormationParameters& parameters) {
+std::array<Vector2, kFieldRoles> usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
+                                             const FormationParameters& parameters) {
   const Vector2 ownGoal(-0.5 * field.length, 0.0);
   const Vector2 goalToBall = p_FB - ownGoal;
   const double distance = std::max(goalToBall.norm(), 1e-6);
@@ -100,9 +100,9 @@ std::array<Vector2, kMaxAssigned> usualPlaces(const Vector2& p_FB, const world::
 
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
                        const FormationParameters& parameters, const VariantParameters& variant) {
-  assert(count >= 0 && count <= kMaxAssigned);
+  assert(count >= 0 && count <= kFieldRoles);
   const auto other = variantPlaces(p_FB, field, parameters, variant);
-  const std::array<Vector2, kMaxAssigned> wanted = other ? *other : usualPlaces(p_FB, field, parameters);
+  const std::array<Vector2, kFieldRoles> wanted = other ? *other : usualPlaces(p_FB, field, parameters);
 
   Formation formation;
   formation.count = count;

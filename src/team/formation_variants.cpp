@@ -8,7 +8,7 @@ namespace nonet::team {
 
 namespace {
 
-using Places = std::array<Vector2, kMaxAssigned>;
+using Places = std::array<Vector2, kFieldRoles>;
 
 // The line from the own goal to the ball, and what lies beside it.
 struct GoalLine {
@@ -31,7 +31,7 @@ Places defensePlaces(const Vector2& p_FB, const GoalLine& line, const FormationP
   struct Place {
     double fromGoal, side;  // m
   };
-  static constexpr std::array<Place, kMaxAssigned - 2> kRows = {
+  static constexpr std::array<Place, kFieldRoles - 2> kRows = {
       {{3.0, 0.7}, {5.0, -0.7}, {6.0, 2.0}, {6.0, -2.5}, {7.5, 0.0}, {4.5, 3.5}, {4.5, -3.5}, {9.0, 0.0}}};
   // Of the way to the ball: nobody stands beyond it.
   constexpr double kFarthest = 0.85;
@@ -48,7 +48,7 @@ Places boxPlaces(const Vector2& p_FB, const world::FieldGeometry& field) {
   struct Box {
     int column, row;  // thirds of the field: -1 own or right, 1 the other's or left
   };
-  static constexpr std::array<Box, kMaxAssigned - 1> kBoxes = {
+  static constexpr std::array<Box, kFieldRoles - 1> kBoxes = {
       {{0, 0}, {-1, 0}, {-1, 1}, {1, 0}, {0, 1}, {0, -1}, {-1, -1}, {1, 1}, {1, -1}}};
   constexpr double kFollow = 0.5;  // of the way to the place in the box that is nearest to the ball
   const Vector2 size(field.length / 3.0, field.width / 3.0);
@@ -69,7 +69,7 @@ Places wallPlaces(const Vector2& p_FB, const GoalLine& line) {
   struct Place {
     double share, side;  // of the way from the own goal to the ball; m
   };
-  static constexpr std::array<Place, kMaxAssigned - 3> kRows = {
+  static constexpr std::array<Place, kFieldRoles - 3> kRows = {
       {{0.8, 0.0}, {0.6, 0.7}, {0.5, -0.7}, {0.35, 0.4}, {0.25, -0.4}, {0.7, -1.2}, {0.7, 1.2}}};
   Places places{};
   places[0] = p_FB;

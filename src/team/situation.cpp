@@ -30,7 +30,7 @@ Formation placesFor(const world::WorldState& world, const TeamParameters& parame
     formation.stopperBehind =
         std::max(formation.stopperBehind, parameters.clearOfOpponentKick + formation.apart);
   }
-  return formationFor(world.ball.p_FB.head<2>(), kMaxAssigned, world.field, formation, parameters.variant);
+  return formationFor(world.ball.p_FB.head<2>(), kFieldRoles, world.field, formation, parameters.variant);
 }
 
 // Straight away from the own goal.

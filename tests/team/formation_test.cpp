@@ -20,8 +20,8 @@ TEST(Formation, StaysInsideTheFieldWhereverTheBallIs) {
       field.width = 14.0;
     }
     const Vector2 ball(random.uniform(-0.5, 0.5) * field.length, random.uniform(-0.5, 0.5) * field.width);
-    const Formation formation = formationFor(ball, kMaxAssigned, field, parameters);
-    ASSERT_EQ(formation.count, kMaxAssigned);
+    const Formation formation = formationFor(ball, kFieldRoles, field, parameters);
+    ASSERT_EQ(formation.count, kFieldRoles);
     for (int i = 0; i < formation.count; ++i) {
       EXPECT_LE(std::abs(formation.positions[i].x()), 0.5 * field.length);
       EXPECT_LE(std::abs(formation.positions[i].y()), 0.5 * field.width);
@@ -54,7 +54,7 @@ TEST(Formation, KeepsTheOtherPlayersOutOfTheOwnPenaltyArea) {
   const world::FieldGeometry field;
   for (double x = -14.5; x <= -5.0; x += 0.5) {
     for (double y = -9.0; y <= 9.0; y += 0.5) {
-      const Formation formation = formationFor({x, y}, kMaxAssigned, field, {});
+      const Formation formation = formationFor({x, y}, kFieldRoles, field, {});
       for (int i = 1; i < formation.count; ++i) {
         if (static_cast<Role>(i) == Role::BackLeft) continue;
         const Vector2 place = formation.positions[i];
@@ -70,7 +70,7 @@ TEST(Formation, LeavesRoomBetweenThePlacesAlsoNearLinesAndGoals) {
   for (double x = -14.5; x <= 14.5; x += 0.5) {
     for (double y = -9.5; y <= 9.5; y += 0.5) {
       // Nine and eleven players with the goalie.
-      for (const int count : {8, kMaxAssigned}) {
+      for (const int count : {8, kFieldRoles}) {
         const Formation formation = formationFor({x, y}, count, field, {});
         for (int i = 0; i < formation.count; ++i)
           for (int j = 0; j < i; ++j)

@@ -1,4 +1,4 @@
-// Oracle: brute force over all mappings.
+// Oracles: brute force over all mappings, and the two algorithms against each other.
 #include "nonet/team/role_assignment.h"
 
 #include <algorithm>
@@ -30,25 +30,80 @@ std::vector<double> bruteForce(const std::vector<Vector2>& players, const std::v
   return best;
 }
 
-TEST(RoleAssignment, EqualsBruteForceOnRandomTeams) {
+struct Task {
+  std::vector<Vector2> players;
+  std::vector<Vector2> positions;
+};
+
+/// Anywhere on the field; or on a grid of 3 x 3 points, where many ways are of the same length and some
+/// players stand in the same place.
+Task randomTask(Random& random, int n, bool grid) {
+  Task task;
+  const auto place = [&] {
+    return grid ? Vector2(static_cast<double>(random.below(3)), static_cast<double>(random.below(3)))
+                : Vector2(random.uniform(-15, 15), random.uniform(-10, 10));
+  };
+  for (int i = 0; i < n; ++i) {
+    task.players.push_back(place());
+    task.positions.push_back(place());
+  }
+  return task;
+}
+
+/// Its sorted distances; fails if it is not one-to-one.
+std::vector<double> costOf(const Task& task, const Assignment& assignment) {
+  const std::vector<int> mapping(assignment.begin(),
+                                 assignment.begin() + static_cast<long>(task.players.size()));
+  std::vector<int> sorted = mapping;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_EQ(sorted[i], static_cast<int>(i));
+  return sortedDistances(task.players, task.positions, mapping);
+}
+
+TEST(RoleAssignment, BothAlgorithmsEqualBruteForce) {
   Random random(7);
   RoleAssigner assigner;
-  for (int trial = 0; trial < 300; ++trial) {
-    const int n = 1 + static_cast<int>(random.below(7));
-    std::vector<Vector2> players;
-    std::vector<Vector2> positions;
-    for (int i = 0; i < n; ++i) {
-      players.emplace_back(random.uniform(-15, 15), random.uniform(-10, 10));
-      positions.emplace_back(random.uniform(-15, 15), random.uniform(-10, 10));
-    }
-    const Assignment assignment = assigner.assign(players, positions);
-    std::vector<int> mapping(assignment.begin(), assignment.begin() + n);
-    std::vector<int> sorted = mapping;
-    std::sort(sorted.begin(), sorted.end());
-    for (int i = 0; i < n; ++i) ASSERT_EQ(sorted[i], i) << "not a one-to-one mapping";
-    const std::vector<double> found = sortedDistances(players, positions, mapping);
-    const std::vector<double> expected = bruteForce(players, positions);
-    for (int i = 0; i < n; ++i) ASSERT_DOUBLE_EQ(found[i], expected[i]);
+  for (int trial = 0; trial < 4000; ++trial) {
+    const int n = trial % 40 == 0 ? 7 : static_cast<int>(random.below(7));
+    const Task task = randomTask(random, n, trial % 2 == 1);
+    const std::vector<double> expected = bruteForce(task.players, task.positions);
+    ASSERT_EQ(costOf(task, assigner.assign(task.players, task.positions)), expected) << trial;
+    ASSERT_EQ(costOf(task, assignMinimalMakespan(task.players, task.positions)), expected) << trial;
+  }
+}
+
+TEST(RoleAssignment, BothAlgorithmsAgreeUpToElevenPlayers) {
+  Random random(8);
+  RoleAssigner assigner;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const int n = 8 + static_cast<int>(random.below(4));
+    const Task task = randomTask(random, n, trial % 2 == 1);
+    ASSERT_EQ(costOf(task, assignMinimalMakespan(task.players, task.positions)),
+              costOf(task, assigner.assign(task.players, task.positions)))
+        << trial;
+  }
+}
+
+// The rule in words: of the mappings with the least cost the one whose last position has the lowest player,
+// and so on to the first. Every robot must find the same one.
+TEST(RoleAssignment, TiesGoToTheLowerPlayerAtTheLaterPosition) {
+  Random random(9);
+  RoleAssigner assigner;
+  for (int trial = 0; trial < 500; ++trial) {
+    const int n = 2 + static_cast<int>(random.below(5));
+    const Task task = randomTask(random, n, true);
+    const std::vector<double> least = bruteForce(task.players, task.positions);
+    std::vector<int> playerOf(static_cast<std::size_t>(n));  // of each position, last first
+    std::iota(playerOf.begin(), playerOf.end(), 0);
+    // Players of the positions from the last to the first, in lexicographic order: the first that costs
+    // least.
+    std::vector<int> mapping(static_cast<std::size_t>(n));
+    do {
+      for (int k = 0; k < n; ++k) mapping[static_cast<std::size_t>(playerOf[k])] = n - 1 - k;
+    } while (sortedDistances(task.players, task.positions, mapping) != least &&
+             std::next_permutation(playerOf.begin(), playerOf.end()));
+    const Assignment assignment = assigner.assign(task.players, task.positions);
+    for (int i = 0; i < n; ++i) ASSERT_EQ(assignment[i], mapping[i]) << trial;
   }
 }
 

@@ -112,7 +112,7 @@ TEST(Strategy, KeepsTheDistanceAtTheOpponentsSetPieces) {
     scene.world.game.phase = trial % 2 == 0 ? Phase::OpponentFreeKick : Phase::OpponentKickIn;
     scene.putBall({random.uniform(-12.0, 12.0), random.uniform(-9.0, 9.0)});
     scene.stand(Pose2(random.uniform(-12.0, 12.0), random.uniform(-9.0, 9.0), 0.0));
-    for (int role = 0; role < kMaxAssigned; ++role) {
+    for (int role = 0; role < kFieldRoles; ++role) {
       const Situation situation = scene.situation(static_cast<Role>(role));
       ASSERT_FALSE(situation.play);
       const auto action = opponentSetPiece(situation);
@@ -136,7 +136,7 @@ TEST(Strategy, NobodyWaitsInTheirAreaAtTheirGoalKick) {
   scene.world.game.phase = Phase::OpponentGoalKick;
   scene.putBall({14.0, 0.0});
   scene.stand(Pose2(8.0, 1.0, 0.0));
-  for (int role = 0; role < kMaxAssigned; ++role) {
+  for (int role = 0; role < kFieldRoles; ++role) {
     const Situation situation = scene.situation(static_cast<Role>(role));
     const Vector2 place = goalOf(scene, *opponentSetPiece(situation));
     EXPECT_FALSE(place.x() > 13.2 - 0.5 && std::abs(place.y()) < 3.0 + 0.5)

@@ -7,7 +7,6 @@
 
 #include "nonet/math/pose2.h"
 #include "nonet/team/parameters.h"
-#include "nonet/team/role_assignment.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::team {
@@ -27,8 +26,10 @@ enum class Role : std::uint8_t {
   Goalie,
 };
 
+inline constexpr int kFieldRoles = 10;  // all but the goalie's
+
 struct Formation {
-  std::array<Vector2, kMaxAssigned> positions{};  // of roles OnBall ... , `count` of them
+  std::array<Vector2, kFieldRoles> positions{};  // of roles OnBall ... , `count` of them
   int count = 0;
 };
 
@@ -38,10 +39,10 @@ Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometr
                        const FormationParameters& parameters, const VariantParameters& variant = {});
 
 /// The places that a variant wants, before they are spread; nothing if it leaves the formation as it is.
-std::optional<std::array<Vector2, kMaxAssigned>> variantPlaces(const Vector2& p_FB,
-                                                               const world::FieldGeometry& field,
-                                                               const FormationParameters& parameters,
-                                                               const VariantParameters& variant);
+std::optional<std::array<Vector2, kFieldRoles>> variantPlaces(const Vector2& p_FB,
+                                                              const world::FieldGeometry& field,
+                                                              const FormationParameters& parameters,
+                                                              const VariantParameters& variant);
 
 /// Where player `unum` beams to before a kick-off; everybody is in the own half.
 Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
