@@ -73,6 +73,9 @@ std::vector<Pose2> Agent::particles() const {
 team::Role Agent::role() const {
   return stages_->behavior.role();
 }
+const std::optional<protocol::RoleVote>& Agent::agreedRoles() const {
+  return stages_->behavior.agreed();
+}
 std::string_view Agent::kick() const {
   const motion::MotionState& motion = stages_->robot.motion().state();
   return motion.busy ? motion.kick.name : std::string_view();

@@ -16,6 +16,7 @@
 #include "nonet/app/tcp_match.h"
 #include "nonet/app/team_name.h"
 #include "nonet/app/trace_file.h"
+#include "nonet/lab/reports/match_agreement.h"
 #include "nonet/lab/reports/match_localization.h"
 
 namespace nonet::app {
@@ -27,6 +28,7 @@ struct MatchArguments {
   int threads = 0;
   bool inProcess = false;
   bool localization = false;
+  bool agreement = false;
   bool alone = false;
   bool truth = false;
   std::string json = "logs/match.json";
@@ -49,8 +51,13 @@ void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter)
   painter->show(thought.agent);
 }
 
-lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
-                          lab::MatchLocalization& localization) {
+/// What is measured beside the result, as far as it was asked for.
+struct Measurements {
+  lab::MatchLocalization localization;
+  lab::MatchAgreement agreement;
+};
+
+lab::MatchResult playHere(const MatchArguments& arguments, Console& console, Measurements& measured) {
   const lab::MatchSettings& match = arguments.settings.match;
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int threads = arguments.threads > 0 ? arguments.threads : cores;
@@ -60,15 +67,17 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console,
   lab::MatchObservers observers;
   observers.afterCycle = [&](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
     if (console.due()) console.progress(watcher.progress(simulation));
-    if (arguments.localization) localization.afterCycle(simulation);
+    if (arguments.localization) measured.localization.afterCycle(simulation);
+    if (arguments.agreement) measured.agreement.afterCycle(simulation);
     return !StopSignal::came();
   };
   std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
   std::map<sim::AgentHandle, std::unique_ptr<RobovizPainter>> painters;
   const TcpMatchSettings& settings = arguments.settings;
-  if (arguments.localization || settings.draw || !settings.traces.empty()) {
+  if (arguments.localization || arguments.agreement || settings.draw || !settings.traces.empty()) {
     observers.afterThought = [&](const lab::Thought& thought) {
-      if (arguments.localization) localization.afterThought(thought);
+      if (arguments.localization) measured.localization.afterThought(thought);
+      if (arguments.agreement) measured.agreement.afterThought(thought);
       if (!settings.traces.empty()) addTrace(settings.traces, thought, traces[thought.handle]);
       if (settings.draw) draw(thought, painters[thought.handle]);
     };
@@ -125,14 +134,16 @@ int runMatch(MatchArguments& arguments) {
   if (!arguments.settings.traces.empty()) std::filesystem::create_directories(arguments.settings.traces);
 
   Console console;
-  lab::MatchLocalization localization;
-  const lab::MatchResult result = arguments.inProcess ? playHere(arguments, console, localization)
-                                                      : playOverTcp(arguments.settings, console);
+  Measurements measured;
+  const lab::MatchResult result =
+      arguments.inProcess ? playHere(arguments, console, measured) : playOverTcp(arguments.settings, console);
   fmt::print("{}", result.toText());
-  if (arguments.localization) fmt::print("{}", localization.toText());
+  if (arguments.localization) fmt::print("{}", measured.localization.toText());
+  if (arguments.agreement) fmt::print("{}", measured.agreement.toText());
   std::ofstream file(arguments.json);
   nlohmann::ordered_json json = result.toJson();
-  if (arguments.localization) json["localization"] = localization.toJson();
+  if (arguments.localization) json["localization"] = measured.localization.toJson();
+  if (arguments.agreement) json["agreement"] = measured.agreement.toJson();
   file << json.dump(2) << "\n";
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
   fmt::print("result in {}\n", arguments.json);
@@ -219,6 +230,12 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
           "--localization", arguments->localization,
           "With --in-process: what all players believe of their place, the ball and each other against "
           "the simulation's truth")
+      ->needs(inProcess);
+  command
+      ->add_flag(
+          "--agreement", arguments->agreement,
+          "With --in-process: in what share of the cycles all field players of a team mean the same "
+          "assignment of roles; --set SayLossShare=0.2 makes each listener miss a fifth of what is said")
       ->needs(inProcess);
   command
       ->add_option("--threads", arguments->threads,

@@ -14,7 +14,9 @@ namespace nonet::sim {
 
 namespace {
 
-constexpr std::uint64_t kPlayerStream = 0x100;  // + 16 * side + number
+// + 16 * side + number
+constexpr std::uint64_t kPlayerStream = 0x100;
+constexpr std::uint64_t kDeafnessStream = 0x200;
 
 }  // namespace
 
@@ -59,6 +61,7 @@ void Simulation::Implementation::broadcast(const Player& sender, std::string_vie
     if (sender.side == TeamSide::None || listener.side == TeamSide::None) continue;
     Vector3f away = from - torso(listener);
     if (away.norm() >= kRange) continue;
+    if (settings.sayLossShare > 0.0 && agent->deafness.uniform() < settings.sayLossShare) continue;
     // Not relative to the listener's heading: the bearing in its team's field frame.
     if (listener.side == TeamSide::Right) away = -away;
     const float direction = static_cast<float>(std::atan2(away.y(), away.x()) * (180.0 / kPi));
@@ -129,7 +132,9 @@ void Simulation::Implementation::buildRobot(Agent& agent, const protocol::SceneE
 }
 
 void Simulation::Implementation::seedFor(Agent& agent, TeamSide side, int unum) const {
-  agent.noise = random.fork(kPlayerStream + 16 * index(side) + static_cast<std::uint64_t>(unum));
+  const std::uint64_t player = 16 * index(side) + static_cast<std::uint64_t>(unum);
+  agent.noise = random.fork(kPlayerStream + player);
+  agent.deafness = random.fork(kDeafnessStream + player);
 }
 
 // Server facts 1.3. Every init moves the robot to its side's next start position, also a refused one.

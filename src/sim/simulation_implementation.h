@@ -28,6 +28,7 @@ struct Agent {
   bool pass = false;
 
   Random noise;
+  Random deafness;                                   // which messages it misses, with Settings::sayLossShare
   AgentSensors sensors{Vector3f(Vector3f::Zero())};  // drawn anew when the robot is built
   Ear ear;
   int senseCount = 0;      // messages made since the connection, those before the robot included

@@ -139,8 +139,10 @@ void RoleVoting::count(const Situation& situation, int banned) {
     if (same > most) winner = votes[i];
     most = std::max(most, same);
   }
+  if (winner == nullptr) return;
+  agreed_ = *winner;
   const int me = world.game.unum - kFirstField;
-  if (winner != nullptr && me >= 0) role_ = static_cast<Role>((*winner)[static_cast<std::size_t>(me)]);
+  if (me >= 0) role_ = static_cast<Role>((*winner)[static_cast<std::size_t>(me)]);
 }
 
 }  // namespace nonet::team

@@ -318,6 +318,48 @@ TEST(Hear, EveryoneHearsAndTheBearingIsInTheListenersField) {
       << "the right team's field is turned by half a turn";
 }
 
+// Each listener misses its own share, the sender none; the seed decides which.
+TEST(Hear, MissesTheShareThatIsSet) {
+  std::vector<std::string> patterns;
+  for (const std::uint64_t seed : {1U, 1U, 2U}) {
+    Settings settings = quietSettings();
+    settings.sayLossShare = 0.2;
+    Scenario scenario(settings, seed);
+    const AgentHandle speaker = scenario.add(TeamSide::Left, 1);
+    const std::array<AgentHandle, 2> listeners = {scenario.add(TeamSide::Left, 2),
+                                                  scenario.add(TeamSide::Left, 3)};
+    scenario.step(3);
+    std::string pattern;
+    std::array<int, 2> heard{};
+    int self = 0;
+    constexpr int kSaid = 600;
+    for (int i = 0; i < kSaid; ++i) {
+      Effectors say;
+      say.say = InlineString<64>("m");
+      scenario.sim.act(speaker, say);
+      scenario.step(2);
+      for (std::size_t k = 0; k < listeners.size(); ++k) {
+        const bool arrived = !scenario.sim.sense(listeners[k])->heard.empty();
+        heard[k] += arrived ? 1 : 0;
+        pattern += arrived ? '1' : '0';
+      }
+      self += scenario.sim.sense(speaker)->heard.empty() ? 0 : 1;
+    }
+    EXPECT_EQ(self, kSaid);
+    for (const int count : heard) EXPECT_NEAR(count, 0.8 * kSaid, 40);  // four standard deviations
+    patterns.push_back(pattern);
+  }
+  EXPECT_EQ(patterns[0], patterns[1]);
+  EXPECT_NE(patterns[0], patterns[2]);
+  std::string first;
+  std::string second;
+  for (std::size_t i = 0; i < patterns[0].size(); i += 2) {
+    first += patterns[0][i];
+    second += patterns[0][i + 1];
+  }
+  EXPECT_NE(first, second);
+}
+
 // Server facts 1.7: four messages in four consecutive cycles: the first and the third arrive.
 TEST(Hear, OneMessageOfEachTeamEveryTwoCycles) {
   Scenario scenario;

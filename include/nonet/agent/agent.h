@@ -50,6 +50,8 @@ class Agent {
   const world::WorldState& world() const;
   std::vector<Pose2> particles() const;  // where it holds itself possible, own field frame
   team::Role role() const;
+  /// Roles of players 2 to 11 as it believes them agreed; empty before the first vote.
+  const std::optional<protocol::RoleVote>& agreedRoles() const;
   /// Name of the kick that the body carries out; empty: none. Valid as long as the agent.
   std::string_view kick() const;
   /// What it decided in the last step, and why. With recordCandidates also what it weighed.

@@ -26,6 +26,8 @@ class Behavior {
 
   const Action& action() const { return action_; }
   Role role() const { return role_; }
+  /// Roles of players 2 to 11 as this one believes them agreed; empty before the first vote.
+  const std::optional<protocol::RoleVote>& agreed() const { return tracker_.agreed(); }
   /// Whether reasons tell also what was weighed (Reason::candidates).
   void recordCandidates(bool on) { tracker_.recordCandidates(on); }
 

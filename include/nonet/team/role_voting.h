@@ -23,6 +23,8 @@ class RoleVoting {
   Role role() const { return role_; }
   /// Number of the field player on the ball as agreed, 0 if there was no vote yet.
   int onBall() const { return onBall_; }
+  /// The whole assignment as agreed: role of players 2 to 11; empty if there was no vote yet.
+  const std::optional<protocol::RoleVote>& agreed() const { return agreed_; }
   /// For the own next message: role of players 2 to 11; empty without a view of the field.
   const std::optional<protocol::RoleVote>& vote() const { return vote_; }
 
@@ -32,6 +34,7 @@ class RoleVoting {
 
   RoleAssigner assigner_;
   std::optional<protocol::RoleVote> vote_;
+  std::optional<protocol::RoleVote> agreed_;
   bool inOwnSlot_ = false;
   Role role_ = Role::Stopper;
   int onBall_ = 0;

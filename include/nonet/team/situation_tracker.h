@@ -21,6 +21,8 @@ class SituationTracker {
   void noticeBeam(double time) { lastBeam_ = time; }
   /// For the own next message: role of players 2 to 11; empty without a view of the field.
   const std::optional<protocol::RoleVote>& vote() const { return voting_.vote(); }
+  /// What all should do, as this player counts the votes; empty before the first.
+  const std::optional<protocol::RoleVote>& agreed() const { return voting_.agreed(); }
 
   /// Whether choices write down what they weighed.
   void recordCandidates(bool on) { recording_ = on; }

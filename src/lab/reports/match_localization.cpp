@@ -18,6 +18,7 @@ const double kFallenBelow = std::cos(toRadians(60.0));
 const double kStandingAbove = std::cos(toRadians(25.0));
 constexpr double kTimeToRecover = 0.5;  // s
 constexpr double kGoodError = 0.1;      // m
+constexpr double kKnownWell = 0.5;      // m, of an opponent
 constexpr double kNearBy = 5.0;         // m, range of sightings whose errors are counted
 
 constexpr std::array<std::string_view, 3> kActivityNames = {"standing", "walking", "fallen"};
@@ -44,6 +45,10 @@ std::string row(std::string_view name, const LocalizationReport& report) {
 
 nlohmann::ordered_json errorsToJson(const std::vector<double>& errors) {
   return {{"count", errors.size()}, {"median", quantile(errors, 0.5)}, {"p95", quantile(errors, 0.95)}};
+}
+
+double share(long part, long whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
 }  // namespace
@@ -128,15 +133,25 @@ void MatchLocalization::compareOthers(const Moment& moment, const Thought& thoug
     ballErrors_.push_back((world.ball.p_FB - turned(moment.p_WB, self.fromRight)).head<2>().norm());
   }
   for (const auto& [handle, other] : moment.robots) {
-    if (handle == thought.handle || !near(other.X_WR.translation)) continue;
+    if (handle == thought.handle) continue;
     const bool mate = other.rightTeam == self.rightTeam;
     const auto& players = mate ? world.teammates : world.opponents;
     const world::PlayerState& player = players[static_cast<std::size_t>(other.unum)];
-    if (!player.known || player.lastSeen != world.time) continue;
     const Vector2 p_WP = other.X_WR.translation;
     const Vector2 p_FP = self.fromRight ? Vector2(-p_WP) : p_WP;
+    if (!mate) askOfOpponent(player, p_FP);
+    if (!near(p_WP) || !player.known || player.lastSeen != world.time) continue;
     playerErrors_.push_back((player.X_FP.translation - p_FP).norm());
   }
+}
+
+void MatchLocalization::askOfOpponent(const world::PlayerState& opponent, const Vector2& p_FP) {
+  ++opponents_.asked;
+  if (!opponent.known) return;
+  ++opponents_.known;
+  const double error = (opponent.X_FP.translation - p_FP).norm();
+  opponents_.errors.push_back(error);
+  if (error < kKnownWell) ++opponents_.good;
 }
 
 nlohmann::ordered_json MatchLocalization::toJson() const {
@@ -145,6 +160,9 @@ nlohmann::ordered_json MatchLocalization::toJson() const {
   json["rises"] = {{"count", rises_.count}, {"good", rises_.good}};
   json["ball_error_m"] = errorsToJson(ballErrors_);
   json["player_error_m"] = errorsToJson(playerErrors_);
+  json["opponents"] = {{"known", share(opponents_.known, opponents_.asked)},
+                       {"within_half_metre", share(opponents_.good, opponents_.asked)},
+                       {"error_m", errorsToJson(opponents_.errors)}};
   json["players"] = nlohmann::ordered_json::array();
   for (const auto& [player, report] : byPlayer_) {
     nlohmann::ordered_json entry = {{"side", player.first ? "right" : "left"}, {"unum", player.second}};
@@ -172,6 +190,10 @@ std::string MatchLocalization::toText() const {
                       quantile(ballErrors_, 0.5), quantile(ballErrors_, 0.95), ballErrors_.size());
   text += fmt::format("players in sight within 5 m: median {:.3f} m, 95% {:.3f} m ({} sightings)\n",
                       quantile(playerErrors_, 0.5), quantile(playerErrors_, 0.95), playerErrors_.size());
+  text +=
+      fmt::format("opponents anywhere: {:.1f} % known, {:.1f} % within 0.5 m, those known median {:.3f} m\n",
+                  100.0 * share(opponents_.known, opponents_.asked),
+                  100.0 * share(opponents_.good, opponents_.asked), quantile(opponents_.errors, 0.5));
   return text;
 }
 

@@ -41,6 +41,16 @@ class MatchLocalization {
   };
   const Rises& rises() const { return rises_; }
 
+  /// What is believed of the opponents, seen or told, wherever they are: one question per vision message,
+  /// player and opponent.
+  struct Opponents {
+    long asked = 0;
+    long known = 0;
+    long good = 0;               // known, and wrong by less than 0.5 m
+    std::vector<double> errors;  // m, of those known
+  };
+  const Opponents& opponents() const { return opponents_; }
+
   nlohmann::ordered_json toJson() const;
   std::string toText() const;
 
@@ -69,6 +79,7 @@ class MatchLocalization {
   const Moment* momentOf(double time) const;
   Activity follow(const RobotTruth& truth, double time, Follow& robot) const;
   void compareOthers(const Moment& moment, const Thought& thought);
+  void askOfOpponent(const world::PlayerState& opponent, const Vector2& p_FP);
 
   std::deque<Moment> moments_;
   std::map<sim::AgentHandle, Follow> robots_;
@@ -76,6 +87,7 @@ class MatchLocalization {
   std::array<LocalizationReport, 3> byActivity_;
   LocalizationReport all_;
   Rises rises_;
+  Opponents opponents_;
   std::string firstTeam_;
   std::vector<double> ballErrors_;    // m, ball in sight within 5 m
   std::vector<double> playerErrors_;  // m, player in sight within 5 m

@@ -207,6 +207,14 @@ void describeSenses(Self& s, Visitor&& visit) {
 
 template <class Self, class Visitor>
 void describeProcess(Self& s, Visitor&& visit) {
+  visit(
+      {"SayLossShare",
+       Unit::None,
+       {0.0, 1.0},
+       fixed,
+       "Share of the messages that a listener misses beside what the rules of hearing cost, by chance, each "
+       "listener for itself"},
+      s.sayLossShare);
   visit({"LeftTeam", Unit::None, {}, fixed, "Name of the team that plays left; empty: the first that comes"},
         s.leftTeam);
   visit(

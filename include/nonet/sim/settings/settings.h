@@ -113,8 +113,9 @@ struct Settings {
   bool senseBallPos = false;     // (ballpos x y z)
 
   // -- not in the server: how reproducible matches and fast training are had
-  std::string leftTeam;   // fixes which name plays left; empty: the first name that is used
-  std::string rightTeam;  // likewise right
+  double sayLossShare = 0.0;  // of all messages, for each listener by itself
+  std::string leftTeam;       // fixes which name plays left; empty: the first name that is used
+  std::string rightTeam;      // likewise right
   bool quickSolver = false;
   int threads = 1;
   int threadPatience = 0;  // microseconds for which a thread looks out for work before it sleeps
