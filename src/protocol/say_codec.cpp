@@ -15,14 +15,19 @@ constexpr int kBitsPerCharacter = 6;
 constexpr int kCheckBits = 16;
 constexpr int kPayloadBits = static_cast<int>(kSayLength) * kBitsPerCharacter - kCheckBits;
 
-constexpr double kReachX = 17.0;     // m
-constexpr double kReachY = 12.0;     // m
-constexpr double kReachSpeed = 8.0;  // m/s
-constexpr double kReachAge = 10.0;   // s
+constexpr double kReachX = 17.0;      // m
+constexpr double kReachY = 12.0;      // m
+constexpr double kReachSpeed = 14.0;  // m/s
+constexpr double kReachAge = 5.0;     // s
+constexpr std::uint32_t kAgeSteps = 14;
+constexpr std::uint32_t kNoBall = 15;
 constexpr double kTimeStep = 0.4;    // s
+constexpr double kFlightStep = 0.2;  // s
+constexpr double kPassStep = 0.1;    // s
 constexpr std::uint32_t kNoTime = 31;
 constexpr std::uint32_t kNoVote = (1U << 22U) - 1U;
-constexpr std::array<double, 4> kSigmas{0.1, 0.3, 1.0, 3.0};
+constexpr std::array<double, 4> kSigmas{0.1, 0.3, 1.0, 3.0};                     // m
+constexpr std::array<double, 4> kSightingAges{0.1, 0.25, 0.5, kOldestSighting};  // s
 
 using Bits = std::array<bool, kSayLength * kBitsPerCharacter>;
 
@@ -60,8 +65,149 @@ std::uint32_t quantize(double value, double reach, std::uint32_t steps) {
 double restore(std::uint32_t code, double reach, std::uint32_t steps) {
   return std::min(code, steps) * (2.0 * reach) / steps - reach;
 }
-constexpr std::uint32_t kPlaceSteps = 1023;
+
+// Places of so many bits; of an odd number of steps, as here, none is exactly 0.
+void putPlace(BitWriter& writer, const Vector2& p_F, int bits) {
+  const std::uint32_t steps = (1U << static_cast<unsigned>(bits)) - 1U;
+  writer.put(quantize(p_F.x(), kReachX, steps), bits);
+  writer.put(quantize(p_F.y(), kReachY, steps), bits);
+}
+Vector2 getPlace(BitReader& reader, int bits) {
+  const std::uint32_t steps = (1U << static_cast<unsigned>(bits)) - 1U;
+  const double x = restore(reader.get(bits), kReachX, steps);
+  return {x, restore(reader.get(bits), kReachY, steps)};
+}
+
+// Finer for slow balls: the root of the speed is what has equal steps.
 constexpr std::uint32_t kSpeedSteps = 126;
+void putSpeed(BitWriter& writer, double speed) {
+  const double root = std::copysign(std::sqrt(std::abs(speed) / kReachSpeed), speed);
+  writer.put(quantize(root, 1.0, kSpeedSteps), 7);
+}
+double getSpeed(BitReader& reader) {
+  const double root = restore(reader.get(7), 1.0, kSpeedSteps);
+  return std::copysign(root * root, root) * kReachSpeed;
+}
+
+void putTime(BitWriter& writer, double time, double step, int bits) {
+  const double most = (1U << static_cast<unsigned>(bits)) - 1U;
+  writer.put(time > 0.0 ? static_cast<std::uint32_t>(std::lround(std::min(time / step, most))) : 0U, bits);
+}
+
+constexpr std::uint32_t kHeadings = 64;
+void putHeading(BitWriter& writer, double heading) {
+  const double turns = std::isfinite(heading) ? wrapAngle(heading) / (2.0 * kPi) : 0.0;
+  writer.put(static_cast<std::uint32_t>(std::lround(turns * kHeadings)) % kHeadings, 6);
+}
+double getHeading(BitReader& reader) {
+  return wrapAngle(reader.get(6) * (2.0 * kPi) / kHeadings);
+}
+
+/// The first of these that is not smaller; the last one if all are, also for NaN.
+std::uint32_t firstNotBelow(double value, const std::array<double, 4>& steps) {
+  std::uint32_t code = 0;
+  while (code < steps.size() - 1 && !(value <= steps[code])) ++code;
+  return code;
+}
+
+void putCommon(BitWriter& writer, const SayMessage& message) {
+  putPlace(writer, message.X_FR.translation, 9);
+  writer.put(message.fallen ? 1 : 0, 1);
+  writer.put(firstNotBelow(message.sigma, kSigmas), 2);
+  std::uint32_t time = kNoTime;
+  if (message.timeToBall && *message.timeToBall >= 0.0)
+    time = static_cast<std::uint32_t>(std::lround(std::min(*message.timeToBall / kTimeStep, kNoTime - 1.0)));
+  writer.put(time, 5);
+  writer.put(message.vote ? permutationRank(*message.vote).value_or(kNoVote) : kNoVote, 22);
+}
+bool getCommon(BitReader& reader, SayMessage& message) {
+  message.X_FR.translation = getPlace(reader, 9);
+  message.fallen = reader.get(1) != 0;
+  message.sigma = kSigmas[reader.get(2)];
+  const std::uint32_t time = reader.get(5);
+  if (time != kNoTime) message.timeToBall = time * kTimeStep;
+  const std::uint32_t vote = reader.get(22);
+  if (vote != kNoVote) message.vote = permutationOfRank(vote);
+  return vote == kNoVote || message.vote;
+}
+
+void putStatus(BitWriter& writer, const SayMessage& message) {
+  putHeading(writer, message.X_FR.rotation);
+  const SayBall ball = message.ball.value_or(SayBall{});
+  const double age = ball.age > 0.0 ? std::min(ball.age, kReachAge) : 0.0;
+  const auto ageCode = static_cast<std::uint32_t>(std::lround(kAgeSteps * std::sqrt(age / kReachAge)));
+  writer.put(message.ball ? ageCode : kNoBall, 4);
+  putPlace(writer, ball.p_FB, 10);
+  putSpeed(writer, ball.v_FB.x());
+  putSpeed(writer, ball.v_FB.y());
+  // What flies is never told as rolling, however soon it lands.
+  putTime(writer, ball.landsIn > 0.0 ? std::max(ball.landsIn, kFlightStep) : 0.0, kFlightStep, 3);
+}
+bool getStatus(BitReader& reader, SayMessage& message) {
+  message.X_FR.rotation = getHeading(reader);
+  const std::uint32_t age = reader.get(4);
+  SayBall ball;
+  ball.age = kReachAge * (age * age) / (kAgeSteps * kAgeSteps);
+  ball.p_FB = getPlace(reader, 10);
+  ball.v_FB.x() = getSpeed(reader);
+  ball.v_FB.y() = getSpeed(reader);
+  ball.landsIn = reader.get(3) * kFlightStep;
+  if (age != kNoBall) message.ball = ball;
+  return true;
+}
+
+constexpr int kLastNumber = 11;
+
+void putPass(BitWriter& writer, const SayMessage& message) {
+  putHeading(writer, message.X_FR.rotation);
+  writer.put(static_cast<std::uint32_t>(std::clamp(message.pass.receiver, 1, kLastNumber)), 4);
+  putPlace(writer, message.pass.p_FTarget, 10);
+  putTime(writer, message.pass.untilKick, kPassStep, 5);
+  putTime(writer, message.pass.untilThere, kPassStep, 6);
+  writer.put(0, 6);
+}
+bool getPass(BitReader& reader, SayMessage& message) {
+  message.X_FR.rotation = getHeading(reader);
+  message.pass.receiver = static_cast<int>(reader.get(4));
+  message.pass.p_FTarget = getPlace(reader, 10);
+  message.pass.untilKick = reader.get(5) * kPassStep;
+  message.pass.untilThere = reader.get(6) * kPassStep;
+  return message.pass.receiver >= 1 && message.pass.receiver <= kLastNumber && reader.get(6) == 0;
+}
+
+constexpr int kSightingBits = 23;
+
+void putSightings(BitWriter& writer, const SayMessage& message) {
+  std::size_t told = 0;
+  for (const SaySighting& sighting : message.sightings) {
+    const bool number = sighting.unum >= 1 && sighting.unum <= kLastNumber;
+    if (!number || !(sighting.age <= kOldestSighting)) continue;
+    ++told;
+    writer.put(static_cast<std::uint32_t>(sighting.unum), 4);
+    putPlace(writer, sighting.p_FP, 8);
+    writer.put(sighting.fallen ? 1 : 0, 1);
+    writer.put(firstNotBelow(sighting.age, kSightingAges), 2);
+  }
+  for (; told < kSaySightings; ++told) writer.put(0, kSightingBits);
+  writer.put(0, 1);
+}
+bool getSightings(BitReader& reader, SayMessage& message) {
+  bool ended = false;
+  for (SaySighting& sighting : message.sightings) {
+    const auto unum = static_cast<int>(reader.get(4));
+    if (unum == 0) {
+      ended = true;
+      if (reader.get(kSightingBits - 4) != 0) return false;
+      continue;
+    }
+    if (ended || unum > kLastNumber) return false;
+    sighting.unum = unum;
+    sighting.p_FP = getPlace(reader, 8);
+    sighting.fallen = reader.get(1) != 0;
+    sighting.age = kSightingAges[reader.get(2)];
+  }
+  return reader.get(1) == 0;
+}
 
 std::uint16_t checkSum(const Bits& bits, std::string_view team) {
   // The start value mixes the team's name (FNV-1a), so that other teams with the same code are refused.
@@ -120,29 +266,12 @@ std::optional<RoleVote> permutationOfRank(std::uint32_t rank) {
 InlineString<64> encodeSay(const SayMessage& message, std::string_view team) {
   BitWriter writer;
   writer.put(kSayVersion, 3);
+  writer.put(static_cast<std::uint32_t>(message.kind), 2);
   writer.put(static_cast<std::uint32_t>(std::clamp(message.unum, 0, 15)), 4);
-  writer.put(quantize(message.X_FR.translation.x(), kReachX, kPlaceSteps), 10);
-  writer.put(quantize(message.X_FR.translation.y(), kReachY, kPlaceSteps), 10);
-  const double heading = std::isfinite(message.X_FR.rotation) ? message.X_FR.rotation : 0.0;
-  writer.put(static_cast<std::uint32_t>(std::lround(wrapAngle(heading) / (2.0 * kPi) * 128.0) & 127), 7);
-  writer.put(message.fallen ? 1 : 0, 1);
-  std::uint32_t accuracy = 0;
-  while (accuracy < 3 && !(message.sigma <= kSigmas[accuracy])) ++accuracy;
-  writer.put(accuracy, 2);
-  const SayMessage::Ball ball = message.ball.value_or(SayMessage::Ball{});
-  writer.put(message.ball ? 1 : 0, 1);
-  writer.put(quantize(ball.p_FB.x(), kReachX, kPlaceSteps), 10);
-  writer.put(quantize(ball.p_FB.y(), kReachY, kPlaceSteps), 10);
-  writer.put(quantize(ball.v_FB.x(), kReachSpeed, kSpeedSteps), 7);
-  writer.put(quantize(ball.v_FB.y(), kReachSpeed, kSpeedSteps), 7);
-  const double age = ball.age > 0.0 ? std::min(ball.age, kReachAge) : 0.0;
-  writer.put(static_cast<std::uint32_t>(std::lround(31.0 * std::sqrt(age / kReachAge))), 5);
-  std::uint32_t time = kNoTime;
-  if (message.timeToBall && *message.timeToBall >= 0.0) {
-    time = static_cast<std::uint32_t>(std::lround(std::min(*message.timeToBall / kTimeStep, kNoTime - 1.0)));
-  }
-  writer.put(time, 5);
-  writer.put(message.vote ? permutationRank(*message.vote).value_or(kNoVote) : kNoVote, 22);
+  putCommon(writer, message);
+  if (message.kind == SayKind::Status) putStatus(writer, message);
+  if (message.kind == SayKind::Pass) putPass(writer, message);
+  if (message.kind == SayKind::Sightings) putSightings(writer, message);
   writer.put(checkSum(writer.bits, team), kCheckBits);
 
   std::array<char, kSayLength> text{};
@@ -161,32 +290,20 @@ std::optional<SayMessage> decodeSay(std::string_view text, std::string_view team
   }
   BitReader reader(writer.bits);
   if (reader.get(3) != kSayVersion) return std::nullopt;
+  const std::uint32_t kind = reader.get(2);
   std::optional<SayMessage> result(std::in_place);
   SayMessage& message = *result;
   message.unum = static_cast<int>(reader.get(4));
-  message.X_FR.translation.x() = restore(reader.get(10), kReachX, kPlaceSteps);
-  message.X_FR.translation.y() = restore(reader.get(10), kReachY, kPlaceSteps);
-  message.X_FR.rotation = wrapAngle(reader.get(7) * (2.0 * kPi) / 128.0);
-  message.fallen = reader.get(1) != 0;
-  message.sigma = kSigmas[reader.get(2)];
-  const bool ballKnown = reader.get(1) != 0;
-  SayMessage::Ball& ball = message.ball.emplace();
-  ball.p_FB.x() = restore(reader.get(10), kReachX, kPlaceSteps);
-  ball.p_FB.y() = restore(reader.get(10), kReachY, kPlaceSteps);
-  ball.v_FB.x() = restore(reader.get(7), kReachSpeed, kSpeedSteps);
-  ball.v_FB.y() = restore(reader.get(7), kReachSpeed, kSpeedSteps);
-  const double share = reader.get(5) / 31.0;
-  ball.age = kReachAge * share * share;
-  if (!ballKnown) message.ball.reset();
-  const std::uint32_t time = reader.get(5);
-  if (time != kNoTime) message.timeToBall = time * kTimeStep;
-  const std::uint32_t vote = reader.get(22);
-  if (vote != kNoVote) {
-    message.vote = permutationOfRank(vote);
-    if (!message.vote) return std::nullopt;
-  }
-  if (reader.get(kCheckBits) != checkSum(writer.bits, team)) return std::nullopt;
-  if (message.unum < 1 || message.unum > 11) return std::nullopt;
+  if (kind > static_cast<std::uint32_t>(SayKind::Sightings) || message.unum < 1 || message.unum > kLastNumber)
+    return std::nullopt;
+  message.kind = static_cast<SayKind>(kind);
+  bool good = getCommon(reader, message);
+  if (message.kind == SayKind::Status) good = getStatus(reader, message) && good;
+  if (message.kind == SayKind::Pass) good = getPass(reader, message) && good;
+  if (message.kind == SayKind::Sightings) good = getSightings(reader, message) && good;
+  if (!good || reader.get(kCheckBits) != checkSum(writer.bits, team)) return std::nullopt;
+  // Codes that are in range but that nobody of us sends, as a speed beyond the largest or a place of no ball.
+  if (encodeSay(message, team).view() != text) return std::nullopt;
   return result;
 }
 

@@ -63,6 +63,7 @@ const Action& Behavior::update(const world::WorldState& world, const motion::Mot
   if (action_.beam) tracker_.noticeBeam(world.time);
   Tidings tidings = tidingsOf(situation);
   tidings.vote = tracker_.vote();
+  tidings.pass = action_.pass;
   action_.say = radio_.update(world, tidings);
   return action_;
 }

@@ -16,6 +16,13 @@ bool isFlying(const BallMotion& ball) {
   return ball.p_FB.z() > kFlyingHeight || std::abs(ball.v_FB.z()) > kLiftSpeed;
 }
 
+double landingTime(const BallMotion& ball) {
+  if (!isFlying(ball)) return 0.0;
+  const double lift = ball.v_FB.z();
+  const double height = std::max(0.0, ball.p_FB.z() - kBallRestHeight);
+  return std::max(0.0, (lift + std::sqrt(lift * lift + 2.0 * kGravity * height)) / kGravity);
+}
+
 void stepBall(BallMotion& ball, double dt) {
   if (!isFlying(ball)) {
     // Exact solution of v' = -k v over the step.

@@ -175,14 +175,29 @@ void BallTracker::measure(const Vector3& p_FB, const Matrix3& covariance, double
   measureHeight(p_FB.z(), covariance(2, 2));
 }
 
+// Where a ball that a mate saw `age` ago is now: it flies, then it rolls. How high nobody tells: as high as a
+// ball that has left the ground just now and is up for so long.
+BallMotion BallTracker::reported(const Report& report, double age) {
+  BallMotion ball{{report.p_FB.x(), report.p_FB.y(), kBallRestHeight},
+                  {report.v_FB.x(), report.v_FB.y(), 0.0}};
+  const auto advance = [&](double decay, double time) {
+    const double left = std::exp(-decay * time);
+    ball.p_FB += ball.v_FB * (1.0 - left) / decay;
+    ball.v_FB *= left;
+  };
+  const double flown = std::min(age, report.landsIn);
+  advance(kAirDecay, flown);
+  if (report.landsIn > 0.0 && flown == report.landsIn) ball.v_FB *= kBounceGrip;
+  advance(kRollDecay, age - flown);
+  ball.v_FB.z() = 0.5 * kGravity * (report.landsIn - flown);
+  return ball;
+}
+
 void BallTracker::hear(const Report& report, double time) {
   // Only what is clearly newer than the own sight helps.
   if (report.seenAt < lastSeen_ + kGrace || report.seenAt < lastReported_) return;
-  BallMotion ball{{report.p_FB.x(), report.p_FB.y(), kBallRestHeight},
-                  {report.v_FB.x(), report.v_FB.y(), 0.0}};
   const double age = std::max(0.0, time - report.seenAt);
-  ball.p_FB.head<2>() = restPlace(ball) - ball.v_FB.head<2>() / kRollDecay * std::exp(-kRollDecay * age);
-  ball.v_FB *= std::exp(-kRollDecay * age);
+  const BallMotion ball = reported(report, age);
   const double sigma = report.sigma + kUnseenGrowth * age;
   const Matrix2 covariance = Matrix2::Identity() * sigma * sigma;
   lastReported_ = report.seenAt;
@@ -191,6 +206,7 @@ void BallTracker::hear(const Report& report, double time) {
   if (worse || mismatch(ball.p_FB.head<2>(), covariance) > kKickGate) {
     start(ball.p_FB, covariance);
     state_.tail<2>() = ball.v_FB.head<2>();
+    lift_ = ball.v_FB.z();
     covariance_.bottomRightCorner<2, 2>() = Matrix2::Identity() * 0.25;
   } else {
     kalman(ball.p_FB.head<2>(), covariance);

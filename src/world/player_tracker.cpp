@@ -19,6 +19,8 @@ constexpr double kSpeedMemory = 0.4;        // s, smoothing of the velocity
 constexpr double kForget = 8.0;             // s
 constexpr double kForgetSigma = 3.0;        // m
 constexpr double kHeadingSigma = 0.35;      // rad, worst heading that is worth telling
+constexpr double kOwnSight = 0.3;           // s by which a mate's sighting must be newer than the own one
+constexpr double kOwnSpeed = 0.6;           // s for which the speed that one saw oneself is believed
 constexpr double kJump = 1.5;               // m, farther than any player walks between two sightings
 
 std::size_t at(BodyPart part) {
@@ -126,7 +128,9 @@ void PlayerTracker::merge(const Sighting& sighting, double time, PlayerState& pl
     const double gain = variance / (variance + sighting.sigma * sighting.sigma);
     player.X_FP.translation += gain * innovation;
     player.sigma = std::sqrt((1.0 - gain) * variance);
-    if (dt > 0.5 * kCycleTime) {
+    // From a place that another told to the one that is seen is no way that was walked.
+    const bool told = player.lastTold > player.lastSighted && time - player.lastSighted > kOwnSpeed;
+    if (dt > 0.5 * kCycleTime && !told) {
       const double memory = std::exp(-dt / kSpeedMemory);
       player.v_FP += (1.0 - memory) * gain / std::max(dt, 0.06) * innovation;
     }
@@ -162,7 +166,9 @@ void PlayerTracker::see(const protocol::Vision& vision, const Vector3& offset, W
       } else {
         player = &(own ? state.teammates : state.opponents)[static_cast<std::size_t>(seen.unum)];
       }
-      if (player != nullptr) merge(*sighting, state.time, *player);
+      if (player == nullptr) continue;
+      merge(*sighting, state.time, *player);
+      player->lastSighted = state.time;
     }
   }
 }
@@ -174,7 +180,7 @@ void PlayerTracker::hear(const Report& report, WorldState& state) const {
   sighting.p_FP = report.X_FP.translation;
   sighting.sigma = report.sigma;
   sighting.heading = report.X_FP.rotation;
-  sighting.headingKnown = true;
+  sighting.headingKnown = report.headingKnown;
   sighting.fallen = report.fallen;
   // A good sighting of this cycle beats a poor report, but the number's own word on falling always counts.
   if (player.known && player.lastSeen == state.time && player.sigma < report.sigma) {
@@ -182,6 +188,31 @@ void PlayerTracker::hear(const Report& report, WorldState& state) const {
     return;
   }
   merge(sighting, state.time, player);
+}
+
+void PlayerTracker::hear(const OpponentReport& report, WorldState& state) const {
+  if (report.unum < 1 || report.unum > kTeamSize) return;
+  PlayerState& player = state.opponents[static_cast<std::size_t>(report.unum)];
+  player.lastTold = std::max(player.lastTold, report.seenAt);
+  const bool older = report.seenAt < player.lastSighted + kOwnSight || report.seenAt < player.lastSeen;
+  if (player.known && older) return;
+  const double sigma = report.sigma + kWalkSpeed * std::max(0.0, state.time - report.seenAt);
+  const Vector2 innovation = report.p_FP - player.X_FP.translation;
+  if (!player.known || innovation.norm() > kJump) {
+    player.X_FP.translation = report.p_FP;
+    player.sigma = sigma;
+    player.headingKnown = false;
+  } else {
+    const double variance = player.sigma * player.sigma;
+    const double gain = variance / (variance + sigma * sigma);
+    player.X_FP.translation += gain * innovation;
+    player.sigma = std::sqrt((1.0 - gain) * variance);
+  }
+  // Two places told by different eyes are no speed; nobody tells one.
+  if (state.time - player.lastSighted > kOwnSpeed) player.v_FP.setZero();
+  player.fallen = report.fallen;
+  player.known = true;
+  player.lastSeen = report.seenAt;
 }
 
 void PlayerTracker::mirror(WorldState& state) const {

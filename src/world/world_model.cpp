@@ -16,6 +16,8 @@ namespace nonet::world {
 namespace {
 
 constexpr int kBeamDelay = 2;            // messages from a command to its effect (server facts 1.2)
+constexpr double kToldSigma = 0.05;      // m, beside what a mate says of its own accuracy: its own place
+constexpr double kToldThingSigma = 0.1;  // m, the same of what it sees
 constexpr double kLocalizedSigma = 0.3;  // m
 constexpr double kLocalizedAngle = 0.2;  // rad
 constexpr double kLocalizedAge = 5.0;    // s without a landmark
@@ -61,6 +63,7 @@ struct WorldModel::Stages {
   void fillSelf();
   void followBeam();
   void listen(const protocol::Percept& percept);
+  void believe(const protocol::SayMessage& message, double time);
   void followOthers(const protocol::Percept& percept);
 
   BodyTracker body;
@@ -112,13 +115,38 @@ void WorldModel::Stages::listen(const protocol::Percept& percept) {
     if (heard.self || (!heard.team.empty() && !(heard.team == state.game.team))) continue;
     const auto message = protocol::decodeSay(heard.message, state.game.team);
     if (!message || message->unum == state.game.unum) continue;
-    const double spokenAt = percept.time - kBeamDelay * kCycleTime;
     state.radio[static_cast<std::size_t>(message->unum)] = {percept.time, *message};
-    players.hear({message->unum, message->X_FR, message->sigma + 0.05, message->fallen}, state);
-    if (message->ball) {
-      const auto& seen = *message->ball;
-      ball.hear({seen.p_FB, seen.v_FB, spokenAt - seen.age, message->sigma + 0.1}, percept.time);
+    believe(*message, percept.time);
+  }
+}
+
+// What a team mate says of itself, the ball, opponents and what it is going to do.
+void WorldModel::Stages::believe(const protocol::SayMessage& message, double time) {
+  const double spokenAt = time - kBeamDelay * kCycleTime;
+  const bool headingKnown = message.kind != protocol::SayKind::Sightings;
+  players.hear(PlayerTracker::Report{message.unum, message.X_FR, message.sigma + kToldSigma, message.fallen,
+                                     headingKnown},
+               state);
+  if (message.ball) {
+    const protocol::SayBall& seen = *message.ball;
+    ball.hear({seen.p_FB, seen.v_FB, spokenAt - seen.age, message.sigma + kToldThingSigma, seen.landsIn},
+              time);
+  }
+  if (message.kind == protocol::SayKind::Sightings) {
+    for (const protocol::SaySighting& seen : message.sightings) {
+      players.hear(PlayerTracker::OpponentReport{seen.unum, seen.p_FP, message.sigma + kToldThingSigma,
+                                                 seen.fallen, spokenAt - seen.age},
+                   state);
     }
+  }
+  if (message.kind == protocol::SayKind::Pass) {
+    const protocol::SayPass& pass = message.pass;
+    state.pass = {time,
+                  message.unum,
+                  pass.receiver,
+                  pass.p_FTarget,
+                  spokenAt + pass.untilKick,
+                  spokenAt + pass.untilThere};
   }
 }
 
@@ -178,6 +206,7 @@ const WorldState& WorldModel::update(const protocol::Percept& percept, const std
   if (playsFromRight(state.game) != fromRight) {
     stages.ball.mirror();
     stages.players.mirror(state);
+    state.pass = {};
   }
   stages.fillSelf();
   stages.followOthers(percept);

@@ -231,6 +231,47 @@ TEST(BallTracker, ForgetsWhatShouldBeInSightAndIsNot) {
   EXPECT_FALSE(state.known);
 }
 
+// Oracle: the law of the ball itself, stepped from the kick on.
+TEST(BallTracker, AToldFlightEndsWhereTheBallLands) {
+  for (const double age : {0.0, 0.2, 0.5, 1.0}) {
+    BallMotion ball{{-2.0, 1.0, kBallRestHeight}, {7.0, 2.0, 4.0}};
+    const double landsIn = landingTime(ball);
+    BallTracker tracker;
+    tracker.hear({ball.p_FB.head<2>(), ball.v_FB.head<2>(), 10.0 - age, 0.1, landsIn}, 10.0);
+    double flown = 0.0;
+    for (; flown < age - 1e-9; flown += kCycleTime) stepBall(ball, kCycleTime);
+    BallState told;
+    tracker.fill(told, {}, 10.0);
+    EXPECT_LT((told.p_FB - ball.p_FB).head<2>().norm(), 0.25) << age;
+    EXPECT_EQ(told.v_FB.z() > 0.0, age < landsIn) << age;
+    // Half a second on, by the tracker and by the law.
+    for (int i = 0; i < 25; ++i) {
+      tracker.predict(kCycleTime);
+      stepBall(ball, kCycleTime);
+    }
+    tracker.fill(told, {}, 10.5);
+    EXPECT_LT((told.p_FB - ball.p_FB).head<2>().norm(), 0.35) << age;
+  }
+}
+
+TEST(BallLaw, LandsWhenSteppingSays) {
+  for (const double lift : {0.0, 1.0, 3.0, 5.0, -2.0}) {
+    for (const double height : {kBallRestHeight, 0.5, 1.5}) {
+      BallMotion ball{{0.0, 0.0, height}, {6.0, 0.0, lift}};
+      const double expected = landingTime(ball);
+      if (!isFlying(ball) || expected < 0.01) continue;
+      double time = 0.0;
+      while (ball.v_FB.z() > 0.0 || ball.p_FB.z() > kBallRestHeight + 1e-9) {
+        stepBall(ball, 0.001);
+        time += 0.001;
+        if (ball.p_FB.z() == kBallRestHeight) break;  // put there by the bounce
+      }
+      EXPECT_NEAR(time, expected, 0.06 * expected + 0.002) << lift << " " << height;
+    }
+  }
+  EXPECT_EQ(landingTime({{0.0, 0.0, kBallRestHeight}, {9.0, 0.0, 0.0}}), 0.0);
+}
+
 TEST(BallTracker, UsesTeamMatesByAge) {
   SelfState self;
   BallTracker tracker;

@@ -40,6 +40,14 @@ struct Reason {
   std::span<const Candidate> candidates;  // empty unless recorded; valid until the next decision
 };
 
+/// A pass that this player is about to play, for the receiver to know before the ball is kicked (radio.h).
+struct PassAnnouncement {
+  int receiver = 0;                     // number of the team mate
+  Vector2 p_FTarget = Vector2::Zero();  // where it can meet the ball, own field frame, m
+  double kickAt = 0.0;                  // server time at which the foot meets the ball, s
+  double thereAt = 0.0;                 // server time at which the ball is there, s
+};
+
 struct Action {
   Action() = default;
   Action(const motion::MotionRequest& request, std::string_view detail) : motion(request) {
@@ -49,6 +57,7 @@ struct Action {
   motion::MotionRequest motion;
   std::optional<motion::HeadRequest> head;  // a behaviour that leaves it empty watches the ball
   std::optional<Pose2> beam;                // own field frame
+  std::optional<PassAnnouncement> pass;     // for as long as the pass is going to be played
   std::optional<InlineString<64>> say;      // at most 20 allowed characters
   Reason reason;
 };

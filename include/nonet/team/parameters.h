@@ -140,15 +140,23 @@ struct AgreementParameters {
   }
 };
 
-/// What is told by radio (radio.h).
+/// What is told by radio, and when (radio.h).
 struct RadioParameters {
   double oldestBall = 5.0;
   double lostSigma = 3.0;
+  bool shareSightings = true;
+  double sightingAge = 0.3;
+  double toldFor = 1.0;
+  int statusBetween = 1;
+  double nearBall = 2.0;
+  double passLead = 0.5;
+  double passAgain = 0.4;
+  double absentAfter = 5.0;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
-    visit({"oldestBall", Unit::Second, {0, 60}, fixed, "Older sightings of the ball are not worth the bits"},
+    visit({"oldestBall", Unit::Second, {0, 5}, fixed, "Older sightings of the ball are not worth the bits"},
           self.oldestBall);
     visit({"lostSigma",
            Unit::Metre,
@@ -156,6 +164,46 @@ struct RadioParameters {
            fixed,
            "Standard deviation that a robot tells of its place when it is lost"},
           self.lostSigma);
+    visit({"shareSightings", Unit::None, {}, fixed, "Opponents that one sees are told to the team mates"},
+          self.shareSightings);
+    visit({"sightingAge", Unit::Second, {0, 1}, fixed, "An opponent is told of if one saw it so lately"},
+          self.sightingAge);
+    visit({"toldFor",
+           Unit::Second,
+           {0, 10},
+           fixed,
+           "An opponent of whom a mate has told is not told of again for so long"},
+          self.toldFor);
+    visit({"statusBetween",
+           Unit::None,
+           {0, 100},
+           fixed,
+           "At least so many messages about oneself and the ball between two about opponents"},
+          self.statusBetween);
+    visit({"nearBall",
+           Unit::Metre,
+           {0, 50},
+           fixed,
+           "Who is nearer to the ball tells of the ball, not of opponents"},
+          self.nearBall);
+    visit({"passLead",
+           Unit::Second,
+           {0, 5},
+           fixed,
+           "A pass is told so long before the kick, in the turn of another if need be"},
+          self.passLead);
+    visit({"passAgain",
+           Unit::Second,
+           {0, 5},
+           fixed,
+           "A pass that was told is told out of turn again only after this time"},
+          self.passAgain);
+    visit({"absentAfter",
+           Unit::Second,
+           {0, 60},
+           fixed,
+           "A number that was silent for so long has no player: its turn is free"},
+          self.absentAfter);
   }
 };
 

@@ -24,6 +24,10 @@ bool isFlying(const BallMotion& ball);
 /// Moves the ball by `dt` s (at most one cycle for a good bounce).
 void stepBall(BallMotion& ball, double dt);
 
+/// How long it is still in the air until its first bounce, s; 0 if it rolls. The drag on the way up and down
+/// is left out: at most 6 % of the time.
+double landingTime(const BallMotion& ball);
+
 /// Where it comes to rest, m.
 Vector2 restPlace(const BallMotion& ball);
 

@@ -20,6 +20,7 @@ class BallTracker {
     Vector2 v_FB = Vector2::Zero();  // m/s
     double seenAt = kNever;          // server time of the mate's sighting, s
     double sigma = 0.5;              // m
+    double landsIn = 0.0;            // s after it was seen; 0: it rolled
   };
 
   void predict(double dt);
@@ -37,6 +38,7 @@ class BallTracker {
   using State = Eigen::Vector4d;  // x, y, vx, vy
   using StateMatrix = Eigen::Matrix4d;
 
+  static BallMotion reported(const Report& report, double age);
   BallMotion motion() const;
   void setMotion(const BallMotion& motion);
   void start(const Vector3& p_FB, const Matrix2& covariance);

@@ -1,5 +1,5 @@
-// Team mates and opponents in the field frame, by team and number, from whichever body parts are seen and
-// from what team mates tell about themselves.
+// Team mates and opponents in the field frame, by team and number, from whichever body parts are seen, from
+// what team mates tell about themselves, and from the opponents that they tell of.
 //
 // Needs: own pose, the vision message, radio reports. Gives: PlayerState per number. Players without a number
 // (or of a third team) go to the nearest opponent that could have moved there, else to a free number.
@@ -18,11 +18,23 @@ class PlayerTracker {
     Pose2 X_FP;
     double sigma = 1.0;  // m
     bool fallen = false;
+    bool headingKnown = true;
+  };
+  /// A team mate's sighting of an opponent.
+  struct OpponentReport {
+    int unum = 0;
+    Vector2 p_FP = Vector2::Zero();
+    double sigma = 1.0;  // m, at the moment of the sighting
+    bool fallen = false;
+    double seenAt = kNever;  // server time, s
   };
 
   void predict(double dt, WorldState& state) const;
   void see(const protocol::Vision& vision, const Vector3& offset, WorldState& state) const;
   void hear(const Report& report, WorldState& state) const;
+  /// Counts only for an opponent that one has not seen oneself since shortly before, and less the older it
+  /// is.
+  void hear(const OpponentReport& report, WorldState& state) const;
   /// The own team changed its side: half a turn for everybody.
   void mirror(WorldState& state) const;
 

@@ -107,6 +107,8 @@ struct PlayerState {
   Vector2 v_FP = Vector2::Zero();  // m/s
   double sigma = 1.0;              // m, standard deviation of the position
   double lastSeen = kNever;        // server time of the last sighting or report, s
+  double lastSighted = kNever;     // server time of the last own sighting, s
+  double lastTold = kNever;        // opponents: server time of the last sighting told by a team mate, s
   bool known = false;
   bool headingKnown = false;
   bool fallen = false;
@@ -116,6 +118,16 @@ struct PlayerState {
 struct RadioReport {
   double time = kNever;  // server time at which it was heard, s
   protocol::SayMessage message;
+};
+
+/// A pass that a team mate has announced.
+struct PassReport {
+  double time = kNever;                 // server time at which it was heard, s
+  int from = 0;                         // number of who kicks
+  int receiver = 0;                     // number, perhaps one's own
+  Vector2 p_FTarget = Vector2::Zero();  // where the ball can be met, m
+  double kickAt = kNever;               // server time of the contact, s
+  double thereAt = kNever;              // server time at which the ball is at p_FTarget, s
 };
 
 struct WorldState {
@@ -128,6 +140,7 @@ struct WorldState {
   std::array<PlayerState, kTeamSize + 1> teammates{};  // indexed by uniform number; [unum] is oneself
   std::array<PlayerState, kTeamSize + 1> opponents{};
   std::array<RadioReport, kTeamSize + 1> radio{};  // indexed by uniform number
+  PassReport pass;                                 // the last one that was announced
 };
 
 }  // namespace nonet::world
