@@ -63,6 +63,7 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(0.0, 3.0));
   command->add_option("--distance", settings.distance, "How far the ball should go, m")
       ->check(CLI::Range(0.5, 25.0));
+  command->add_flag("--stop", settings.stops, "It should come to rest there: motion chooses as for a pass");
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
   command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
   command->add_option("--svg", arguments->svg, "Draw the balls' ways: SVG + name of the kick + .svg");
@@ -70,6 +71,7 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
   command->footer(
       "Examples:\n  nonet kick-report --type 4\n  nonet kick-report --kick kick_power --json\n"
       "  nonet kick-report --kick any --rolling 0.3 --start 1.5 --svg fan_\n"
+      "  nonet kick-report --kick any --distance 4 --stop  # a pass of 4 m\n"
       "  nonet kick-report --kick any --pushed 1 --start 0.5  # after the dribbler's own push");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }

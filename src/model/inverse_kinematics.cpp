@@ -146,9 +146,8 @@ void fitLeg(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& an
   Eigen::Map<Eigen::Matrix<double, 6, 1>>(angles.data()) = x;
 }
 
-}  // namespace
-
-Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles) {
+/// In closed form, within the limits where that is not met; `inside`: they did not bind.
+Reach solveLeg(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles, bool& inside) {
   const LegGeometry leg(model, side);
   const Matrix3& R_RS = X_RS.linear();
   const Vector3 p_SHip = R_RS.transpose() * (leg.p_RHip - X_RS.translation());
@@ -158,10 +157,24 @@ Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS
                             Eigen::AngleAxisd(angles[3] + angles[4], Vector3::UnitY()))
                                .toRotationMatrix();
   solveHip(leg, R_RS * R_SThigh, angles);
+  inside = clampAngles(leg.low, leg.high, angles);
+  return reach;
+}
+
+}  // namespace
+
+Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles) {
+  bool inside = true;
+  const Reach reach = solveLeg(model, side, X_RS, angles, inside);
   // Too far is answered with the foot's orientation kept; too near and all other limits by a fit.
-  if (clampAngles(leg.low, leg.high, angles) && reach != Reach::Limited) return reach;
+  if (inside && reach != Reach::Limited) return reach;
   fitLeg(model, side, X_RS, angles);
   return reach == Reach::TooFar ? Reach::TooFar : Reach::Limited;
+}
+
+bool legReaches(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles) {
+  bool inside = true;
+  return solveLeg(model, side, X_RS, angles, inside) == Reach::Exact && inside;
 }
 
 void shiftSole(const RobotModel& model, Side side, const Vector3& way, LegAngles& angles) {

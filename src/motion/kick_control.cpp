@@ -24,6 +24,13 @@ bool stepEnds(const GaitState& gait, Side foot, const KickParameters& p) {
          std::abs(gait.step.rotation) < p.strideTurn * gait.stepDuration;
 }
 
+// How far the kick takes a ball for which so much is wanted. One that does not scale goes too far for a pass,
+// which no other kick minds.
+double carries(const KickHead& head, double wanted, bool stops) {
+  if (stops && !head.scales) return head.longest;
+  return std::clamp(wanted, head.shortest, head.longest);
+}
+
 }  // namespace
 
 KickControl::Way KickControl::wayTo(const KickOption& option, const KickTo& request) const {
@@ -39,19 +46,28 @@ double KickControl::cost(const KickOption& option, const KickTo& request) const 
   const KickParameters& p = parameters_;
   const Way way = wayTo(option, request);
   const double wanted = (request.target - request.ball).norm();
-  const double off = std::abs(wanted - std::clamp(wanted, option.head.shortest, option.head.longest));
+  const double carried = carries(option.head, wanted, request.stops);
+  const double off = std::abs(wanted - carried);
   // The place lies beyond the ball as seen from here.
   const bool around = way.place.dot(request.ball) > request.ball.squaredNorm();
   return way.place.norm() + p.turnCost * std::abs(way.turn) + (around ? p.aroundCost : 0.0) +
          p.timeCost * option.head.contact + p.shortCost * off + (option.head.fromWalk ? 0.0 : p.standCost);
 }
 
+bool KickControl::serves(const KickOption& option, const KickTo& request) const {
+  if (option.head.room > request.room) return false;
+  const bool named = request.kick.view() == option.name;
+  if (!request.kick.view().empty() && !named) return false;
+  // What a ball may go beyond is not for soft kicks.
+  if (option.head.scales && !request.stops && !named) return false;
+  return std::find(refused_.begin(), refused_.end(), &option) == refused_.end();
+}
+
 const KickOption* KickControl::choose(const KickTo& request) const {
   const KickOption* best = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const KickOption& option : catalogue_->options()) {
-    if (option.head.room > request.room) continue;
-    if (!request.kick.view().empty() && request.kick.view() != option.name) continue;
+    if (!serves(option, request)) continue;
     const double value = cost(option, request) - (&option == chosen_ ? parameters_.keep : 0.0);
     if (value >= least) continue;
     least = value;
@@ -90,14 +106,27 @@ bool KickControl::within(double share, const Way& way) const {
          std::abs(way.turn) < share * std::max(parameters_.angle, head.turn);
 }
 
+// The cheapest first, and no further once one may begin or must still come to its place.
 KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, double quiet) {
-  const KickParameters& p = parameters_;
   const KickOption* before = chosen_;
-  chosen_ = choose(request);
+  refused_.fill(nullptr);
+  KickStep step;
+  for (const KickOption*& refused : refused_) {
+    chosen_ = choose(request);
+    if (chosen_ == nullptr) return step;
+    if (chosen_ != before) comesToStand_ = false;
+    step = stepFor(request, walk, quiet);
+    if (!step.begin || check_ == nullptr || check_->check(*chosen_, step.aim.ball).allows()) return step;
+    step.begin = false;
+    refused = chosen_;
+  }
+  return step;
+}
+
+KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, double quiet) {
+  const KickParameters& p = parameters_;
   KickStep step;
   step.option = chosen_;
-  if (chosen_ == nullptr) return step;
-  if (chosen_ != before) comesToStand_ = false;
   const KickHead& head = chosen_->head;
   const double delay = CommandHistory::kDelay * kCycleTime;
   // The steps follow a ball that still rolls. In full they would run into it.
@@ -111,7 +140,8 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
   const bool quietly = walk.standing() && quiet >= p.quietTime;
   step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
   comesToStand_ = step.inPlace;
-  step.aim = {then.ball, way.turn, walk.odometryStep().translation / kCycleTime};
+  step.aim = {then.ball, way.turn, walk.odometryStep().translation / kCycleTime,
+              (request.target - request.ball).norm()};
   step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
   step.stand = step.inPlace && !head.fromWalk;
   return step;

@@ -43,9 +43,10 @@ struct Motion::Stages {
       : parameters(motionParameters),
         library(skillFolder, motionParameters.skills),
         catalogue(library, robot.type()),
-        kicks(catalogue, motionParameters.kick),
         stand(
             WalkEngine::standAngles(robot, motionParameters.sets.of(motionParameters.selection.standSet()))),
+        curves(robot, library, stand),
+        kicks(catalogue, motionParameters.kick, &curves),
         player(robot, library, stand),
         walk(robot, motionParameters.sets, motionParameters.selection, motionParameters.run),
         fall(robot, library, motionParameters.fall, stand),
@@ -61,8 +62,9 @@ struct Motion::Stages {
   MotionParameters parameters;
   SkillLibrary library;
   KickCatalogue catalogue;
-  KickControl kicks;
   model::JointArray stand;
+  CurveCheck curves;
+  KickControl kicks;
   SkillPlayer player;
   WalkControl walk;
   FallControl fall;

@@ -68,6 +68,7 @@ class Parser : private SkillReader {
     allowInputs(skill_.kick.has_value());
     block();
     allowInputs(false);
+    if (skill_.kick) skill_.kick->scales = namesInput(kDistanceInput);
     emit(Instruction::Kind::End);
     return std::move(skill_);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nonet::motion {
 
@@ -12,39 +13,24 @@ namespace {
 
 // A skill that jumps in a circle without taking time must not hang the robot.
 constexpr int kMostInstructionsPerCycle = 1000;
-constexpr double kBallRadius = 0.042;    // m, server facts 3.3
-constexpr double kShortestMove = 0.005;  // s
+constexpr double kBallRadius = 0.042;     // m, server facts 3.3
+constexpr double kShortestMove = 0.005;   // s
+constexpr double kNoStretch = 1e-6;       // share
+constexpr double kKickedBall = 0.7;       // m/s
+constexpr double kFarthestAnchor = 0.06;  // m, that a curve follows the ball
 
-// What a kick's values are made for: beyond these they do not grow. m, m, rad, m/s, m/s.
-const KickInputs kMostInputs = (KickInputs() << 0.08, 0.08, 0.5, 1.0, 1.0).finished();
+// What a kick's values are made for: beyond these they do not grow. m, m, rad, m/s, m/s. The distance has its
+// bounds in the head.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const KickInputs kMostInputs = (KickInputs() << 0.08, 0.08, 0.5, 1.0, 1.0, kInfinity).finished();
 
 // As the kick with the left foot has them.
 KickInputs inputsOf(const KickAim& aim, const KickHead& head, bool mirrored) {
   const double left = mirrored ? -1.0 : 1.0;
   KickInputs inputs;
   inputs << aim.ball.x() - head.p_RBall.x(), left * aim.ball.y() - head.p_RBall.y(), left * aim.turn,
-      aim.pace.x(), left * aim.pace.y();
+      aim.pace.x(), left * aim.pace.y(), std::clamp(aim.distance, head.shortest, head.longest);
   return inputs.cwiseMax(-kMostInputs).cwiseMin(kMostInputs);
-}
-
-Matrix3 rotationOf(const Vector3& rollPitchYaw) {
-  return (Eigen::AngleAxisd(rollPitchYaw.z(), Vector3::UnitZ()) *
-          Eigen::AngleAxisd(rollPitchYaw.y(), Vector3::UnitY()) *
-          Eigen::AngleAxisd(rollPitchYaw.x(), Vector3::UnitX()))
-      .toRotationMatrix();
-}
-
-Vector3 anglesOf(const Matrix3& rotation) {
-  return {std::atan2(rotation(2, 1), rotation(2, 2)), std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0)),
-          std::atan2(rotation(1, 0), rotation(0, 0))};
-}
-
-FootGoal mirroredGoal(FootGoal goal) {
-  goal.side = model::other(goal.side);
-  goal.position.y() = -goal.position.y();
-  goal.rollPitchYaw.x() = -goal.rollPitchYaw.x();
-  goal.rollPitchYaw.z() = -goal.rollPitchYaw.z();
-  return goal;
 }
 
 JointGoal mirroredGoal(const JointGoal& goal) {
@@ -81,10 +67,12 @@ bool SkillPlayer::start(std::string_view name, bool mirrored, const model::Joint
   depth_ = 1;
   time_ = 0.0;
   begun_ = false;
+  stretch_.reset();
   from_ = commanded;
   ball_ = aim ? std::optional(aim->ball) : std::nullopt;
   const std::optional<KickHead>& kick = library_->skill(skill).kick;
   inputs_ = kick && aim ? inputsOf(*aim, *kick, mirrored) : KickInputs(KickInputs::Zero());
+  if (kick && !aim) inputs_(kDistanceInput) = kick->longest;
   return true;
 }
 
@@ -184,7 +172,11 @@ SkillPlayer::Outcome SkillPlayer::spendTime(const Instruction& instruction, cons
     const double used = std::min(budget, duration_ - inInstruction_);
     inInstruction_ += used;
     budget -= used;
-    const double share = duration_ > 0.0 ? inInstruction_ / duration_ : 1.0;
+    const bool curve = instruction.kind == Kind::Curve;
+    if (curve) followBall(instruction, world);
+    const double share = curve             ? curve_.shareAt(inInstruction_)
+                         : duration_ > 0.0 ? inInstruction_ / duration_
+                                           : 1.0;
     if (instruction.kind == Kind::Swing) {
       placeSwing(targets);
     } else if (instruction.kind != Kind::Wait && instruction.kind != Kind::WaitUntil) {
@@ -232,24 +224,29 @@ void SkillPlayer::begin(const Skill& skill, const Instruction& instruction, bool
   if (instruction.kind == Instruction::Kind::Curve) planCurve(instruction, mirrored, world);
 }
 
-// From where the foot is through the points at equal times, at rest at both ends [MacAlpine 2012a,
-// section 5.1.3].
+// A kick tells where it will find the ball, seen from where it begins; whoever sees it knows better by now.
+Vector3 SkillPlayer::curveOrigin(const Instruction& instruction, const world::WorldState& world) const {
+  if (!instruction.fromBall) return Vector3::Zero();
+  const Vector2 ball = world.ball.known || !ball_ ? world.ball.p_RB : *ball_;
+  return ballFromTorso(ball, world.body);
+}
+
 void SkillPlayer::planCurve(const Instruction& instruction, bool mirrored, const world::WorldState& world) {
-  const Vector3 origin =
-      instruction.fromBall ? ballFromTorso(ball_.value_or(world.ball.p_RB), world.body) : Vector3::Zero();
-  const auto count = static_cast<double>(instruction.points.size());
-  curveSide_ = mirrored ? model::other(instruction.points[0].side) : instruction.points[0].side;
-  const Pose3& from = feetFrom_[index(curveSide_)];
-  curve_.clear();
-  curve_.add(0.0, from.translation(), Vector3::Zero());
-  curveAttitudes_[0] = anglesOf(from.linear());
-  for (const FootGoal& raw : instruction.points) {
-    const FootGoal point = mirrored ? mirroredGoal(raw) : raw;
-    const std::size_t i = curve_.size();
-    curve_.add(static_cast<double>(i) / count, origin + point.position, Vector3::Zero());
-    curveAttitudes_[i] = point.rollPitchYaw;
+  const Side side = instruction.points[0].side;
+  curve_.plan(instruction, mirrored, feetFrom_[index(mirrored ? model::other(side) : side)],
+              curveOrigin(instruction, world));
+  anchor_ = curve_.origin();
+  duration_ = curve_.setPace(*model_, instruction.value, from_, to_, moves_);
+  if (duration_ > instruction.value * (1.0 + kNoStretch)) {
+    stretch_ = Stretch{instruction.line, instruction.value, duration_};
   }
-  curve_.smoothInnerKnots();
+}
+
+// The points go with the ball while it moves, but not with one that has been kicked.
+void SkillPlayer::followBall(const Instruction& instruction, const world::WorldState& world) {
+  if (!instruction.fromBall || !world.ball.known || world.ball.v_FB.head<2>().norm() > kKickedBall) return;
+  const Vector3 origin = curveOrigin(instruction, world);
+  if ((origin - anchor_).norm() < kFarthestAnchor) curve_.moveTo(origin);
 }
 
 void SkillPlayer::chooseGoals(const Instruction& instruction, bool mirrored) {
@@ -306,7 +303,7 @@ void SkillPlayer::place(const Instruction& instruction, bool mirrored, double sh
     if (targets.stiffness[i] == 0.0) targets.stiffness[i] = 1.0;
   }
   placeFeet(instruction, mirrored, share, targets);
-  if (instruction.kind == Instruction::Kind::Curve) placeOnCurve(share, targets);
+  if (instruction.kind == Instruction::Kind::Curve) setLeg(curve_.side(), curve_.at(share), targets);
 }
 
 // Every joint runs at its full speed from its delay on: what a kick needs, and what moves with one speed over
@@ -327,27 +324,14 @@ void SkillPlayer::placeFeet(const Instruction& instruction, bool mirrored, doubl
     const FootGoal goal = mirrored ? mirroredGoal(raw) : raw;
     const Pose3& from = feetFrom_[index(goal.side)];
     const Vector3 rpyFrom = anglesOf(from.linear());
-    setLeg(goal.side, from.translation() + share * (goal.position - from.translation()),
-           rpyFrom + share * (goal.rollPitchYaw - rpyFrom), targets);
+    Pose3 X_RS = Pose3::Identity();
+    X_RS.translation() = from.translation() + share * (goal.position - from.translation());
+    X_RS.linear() = rotationOf(rpyFrom + share * (goal.rollPitchYaw - rpyFrom));
+    setLeg(goal.side, X_RS, targets);
   }
 }
 
-// The attitude between two points is interpolated linearly (section 5.1.3).
-void SkillPlayer::placeOnCurve(double share, JointTargets& targets) const {
-  const auto pieces = static_cast<double>(curve_.size() - 1);
-  const double s = std::clamp(share, 0.0, 1.0) * pieces;
-  const auto i = static_cast<std::size_t>(std::min(s, pieces - 1.0));
-  const Vector3& before = curveAttitudes_[i];
-  const Vector3& after = curveAttitudes_[i + 1];
-  setLeg(curveSide_, curve_.at(std::clamp(share, 0.0, 1.0)),
-         before + (s - static_cast<double>(i)) * (after - before), targets);
-}
-
-void SkillPlayer::setLeg(Side side, const Vector3& position, const Vector3& rollPitchYaw,
-                         JointTargets& targets) const {
-  Pose3 X_RS = Pose3::Identity();
-  X_RS.translation() = position;
-  X_RS.linear() = rotationOf(rollPitchYaw);
+void SkillPlayer::setLeg(Side side, const Pose3& X_RS, JointTargets& targets) const {
   model::LegAngles leg{};
   model::legInverseKinematics(*model_, side, X_RS, leg);
   model::setLegAngles(side, leg, targets.angles);

@@ -13,8 +13,8 @@ using Kind = SkillToken::Kind;
 
 namespace {
 
-constexpr std::array<std::string_view, kKickInputs> kInputWords{"ballAhead", "ballAside", "turn", "paceAhead",
-                                                                "paceAside"};
+constexpr std::array<std::string_view, kKickInputs> kInputWords{"ballAhead", "ballAside", "turn",
+                                                                "paceAhead", "paceAside", "distance"};
 
 }  // namespace
 
@@ -103,8 +103,11 @@ SkillValue SkillReader::primary() {
     return {token.value, token.unit};
   }
   if (token.kind == Kind::Word) {
-    for (int i = 0; i < kKickInputs; ++i)
-      if (accept(kInputWords[static_cast<std::size_t>(i)])) return {0.0, Unit::None, KickInputs::Unit(i)};
+    for (int i = 0; i < kKickInputs; ++i) {
+      if (!accept(kInputWords[static_cast<std::size_t>(i)])) continue;
+      inputsNamed_ |= 1U << static_cast<unsigned>(i);
+      return {0.0, Unit::None, KickInputs::Unit(i)};
+    }
     const auto found = named_.find(token.text);
     if (found == named_.end()) fail(fmt::format("unknown parameter '{}'", token.text));
     take();

@@ -68,6 +68,8 @@ class SkillReader {
   /// May suit itself to the ball, in skills whose head says where the ball should lie.
   KickValue kickValue(config::Unit unit);
   void allowInputs(bool allowed) { inputsAllowed_ = allowed; }
+  /// The text has named this input since the names were forgotten, even if only times nothing.
+  bool namesInput(int input) const { return ((inputsNamed_ >> static_cast<unsigned>(input)) & 1U) != 0; }
   /// "(x, y, z)"
   Vector3 vector(config::Unit unit);
   /// "(x, y)"
@@ -78,7 +80,10 @@ class SkillReader {
   /// Parameters stand for their values from here on.
   void nameValue(const std::string& name, const SkillValue& value) { named_[name] = value; }
   bool isNamed(const std::string& name) const { return named_.count(name) > 0; }
-  void forgetNames() { named_.clear(); }
+  void forgetNames() {
+    named_.clear();
+    inputsNamed_ = 0;
+  }
 
  private:
   SkillValue primary();
@@ -91,6 +96,7 @@ class SkillReader {
   std::size_t at_ = 0;
   int depth_ = 0;
   bool inputsAllowed_ = false;
+  std::uint32_t inputsNamed_ = 0;
   std::map<std::string, SkillValue, std::less<>> named_;
 };
 

@@ -32,7 +32,7 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
     for (const motion::KickOption& kick : kicks) {
-      if (kick.foot != model::Side::Left || !kick.head.isStraight()) continue;
+      if (kick.foot != model::Side::Left || !kick.head.isStraight() || kick.head.scales) continue;
       const double hits = scores(world, kick.head, place - ball, p);
       if (hits < p.hits) continue;
       const double lane = laneWidth(world, ball, place, p.widest, kick.head);

@@ -74,6 +74,33 @@ TEST_F(Control, TakesTheOneThatIsNamed) {
   EXPECT_EQ(step(kick).option, nullptr);
 }
 
+// Of two that lie equally near, the one that scales is for passes only, and only where the other would go too
+// far.
+TEST(KickChoice, TakesKicksThatScaleForPasses) {
+  const SkillLibrary library(parseSkills(
+      "skill kick_far { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..10m contact 0.3s from walk }\n"
+      "wait 0.1s }\n"
+      "skill kick_soft { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 2m..6m contact 0.3s from walk }\n"
+      "move over 0.2s { left.knee -0.1rad * distance } }",
+      "test.skl"));
+  const KickCatalogue catalogue(library, 0);
+  const WalkEngine walk(model::robotModel(0));
+  const auto asked = [&](double distance, bool stops) {
+    KickControl control(catalogue, KickParameters{});
+    KickTo kick;
+    kick.ball = {0.2, 0.05};
+    kick.target = kick.ball + Vector2(distance, 0.0);
+    kick.stops = stops;
+    return control.update(kick, walk, 0.0);
+  };
+  for (const double distance : {2.0, 4.0, 6.0, 7.9}) {
+    EXPECT_EQ(asked(distance, true).option->name, "kick_soft") << distance;
+    EXPECT_DOUBLE_EQ(asked(distance, true).aim.distance, distance);
+  }
+  EXPECT_EQ(asked(8.1, true).option->name, "kick_far");  // 1.9 m too far instead of 2.1 m too short
+  for (const double distance : {2.0, 4.0, 8.0}) EXPECT_EQ(asked(distance, false).option->name, "kick_far");
+}
+
 TEST_F(Control, KeepsItsChoiceThroughSmallChanges) {
   EXPECT_EQ(step(request({0.2, 0.01}, {5.0, 0.0})).option->foot, Side::Left);
   EXPECT_EQ(step(request({0.2, -0.01}, {5.0, 0.0})).option->foot, Side::Left);

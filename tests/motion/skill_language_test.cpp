@@ -131,9 +131,20 @@ TEST(SkillLanguage, ValuesMayDependOnAimAndPace) {
       "kick { ball (0.2m, 0) direction 10deg within 0.3rad distance 1m..2m contact 0.3s }\n"
       "swing over 0.1s + 0.3s * paceAhead { left.hipRoll 2rad * turn - 1rad * paceAside / 4 }");
   EXPECT_DOUBLE_EQ(skill.kick->turn, 0.3);
-  const KickInputs inputs = (KickInputs() << 9.0, 9.0, 0.1, 0.5, 0.2).finished();
+  const KickInputs inputs = (KickInputs() << 9.0, 9.0, 0.1, 0.5, 0.2, 9.0).finished();
   EXPECT_NEAR(skill.program[0].duration.at(inputs), 0.1 + 0.3 * 0.5, 1e-12);
   EXPECT_NEAR(skill.program[0].joints[0].angle.at(inputs), 2.0 * 0.1 - 0.2 / 4.0, 1e-12);
+}
+
+// Also one whose numbers say that the distance does not matter yet: where a search begins.
+TEST(SkillLanguage, KicksThatNameTheDistanceScaleWithIt) {
+  const std::string head = "kick { ball (0.2m, 0) distance 1m..2m contact 0.3s }\n";
+  const Skill skill = parseOne(head + "swing over 0.1s + 0.02s * (distance - 4) { left.knee -1rad }");
+  EXPECT_TRUE(skill.kick->scales);
+  const KickInputs inputs = 6.0 * KickInputs::Unit(kDistanceInput);
+  EXPECT_NEAR(skill.program[0].duration.at(inputs), 0.1 + 0.02 * (6.0 - 4.0), 1e-12);
+  EXPECT_TRUE(parseOne(head + "swing over 0.1s { left.knee -1rad - 0rad * distance }").kick->scales);
+  EXPECT_FALSE(parseOne(head + "swing over 0.1s { left.knee -1rad - 1rad * turn }").kick->scales);
 }
 
 TEST(SkillLanguage, ParametersAreReplaced) {

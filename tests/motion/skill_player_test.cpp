@@ -81,6 +81,27 @@ TEST_F(Player, KicksSuitThemselvesToBallAimAndPace) {
   }
 }
 
+// No farther and no nearer than the head says, and as far as it can when nothing is asked.
+TEST_F(Player, KicksSuitThemselvesToTheDistanceAskedFor) {
+  const std::string text =
+      "skill a { kick { ball (0.2m, 5cm) distance 2m..6m contact 0.1s }"
+      "move over 0.2s { left.knee -0.1rad * distance } }";
+  const auto kneeFor = [&](const std::optional<KickAim>& aim) {
+    load(text, false, aim);
+    cyclesToEnd();
+    return angle(JointId::LLeg4);
+  };
+  const auto aimOf = [](double distance) {
+    KickAim aim;
+    aim.distance = distance;
+    return aim;
+  };
+  EXPECT_NEAR(kneeFor(aimOf(3.5)), -0.35, 1e-12);
+  EXPECT_NEAR(kneeFor(aimOf(1.0)), -0.2, 1e-12);
+  EXPECT_NEAR(kneeFor(aimOf(9.0)), -0.6, 1e-12);
+  EXPECT_NEAR(kneeFor({}), -0.6, 1e-12);
+}
+
 // Against the forward kinematics; the right foot does what the left one does, mirrored.
 TEST_F(Player, KicksShiftTheFootWithTheBall) {
   const std::string text =
@@ -207,21 +228,22 @@ TEST_F(Player, FeetGoStraightToTheirPose) {
   EXPECT_LT((right.translation() - Vector3(0.0, -0.055, -0.35)).norm(), 1e-9);
 }
 
+// Slow enough for every joint.
 TEST_F(Player, CurvesPassThroughTheirPointsRelativeToTheBall) {
   world_.body.torsoHeight = 0.35;
   load(
-      "skill a { curve left foot over 0.2s from ball { point (-0.16m, 0, -5mm) point (-0.1m, 10mm, 20mm) } "
+      "skill a { curve left foot over 1.2s from ball { point (-0.16m, 0, -5mm) point (-0.1m, 10mm, 20mm) } "
       "}",
       false, KickAim{Vector2(0.15, 0.055), 0.0, Vector2::Zero()});
   model::BodyPoses bodies;
-  for (int i = 0; i < 5; ++i) step();
+  for (int i = 0; i < 30; ++i) step();
   model::forwardKinematics(model_, targets_.angles, bodies);
   // Ball centre at (0.15, 0.055, 0.042 - 0.35) in the upright torso frame.
   EXPECT_LT((model::solePose(model_, bodies, model::Side::Left).translation() -
              Vector3(-0.01, 0.055, 0.042 - 0.35 - 0.005))
                 .norm(),
             1e-9);
-  for (int i = 0; i < 5; ++i) step();
+  for (int i = 0; i < 30; ++i) step();
   model::forwardKinematics(model_, targets_.angles, bodies);
   EXPECT_LT((model::solePose(model_, bodies, model::Side::Left).translation() -
              Vector3(0.05, 0.065, 0.042 - 0.35 + 0.02))
@@ -232,7 +254,7 @@ TEST_F(Player, CurvesPassThroughTheirPointsRelativeToTheBall) {
 // While one foot follows a curve the other one and the arms go straight to their goals; all of it mirrored.
 TEST_F(Player, TheOtherFootAndTheArmsMoveBesideACurve) {
   load(
-      "skill a { curve left foot over 0.2s { point (20mm, 60mm, -0.32m) point (60mm, 70mm, -0.34m)\n"
+      "skill a { curve left foot over 1.2s { point (20mm, 60mm, -0.32m) point (60mm, 70mm, -0.34m)\n"
       "foot right at (-20mm, -50mm, -0.35m) rpy (0, 0, -10deg) left.shoulderPitch -40deg } }",
       true);
   const auto sole = [&](model::Side side) {
@@ -241,11 +263,11 @@ TEST_F(Player, TheOtherFootAndTheArmsMoveBesideACurve) {
     return model::solePose(model_, bodies, side);
   };
   const Vector3 from = sole(model::Side::Left).translation();
-  for (int i = 0; i < 5; ++i) step();
+  for (int i = 0; i < 30; ++i) step();
   const Vector3 half = sole(model::Side::Left).translation();
   EXPECT_LT((half - 0.5 * (from + Vector3(-0.02, 0.05, -0.35))).norm(), 1e-9);
   EXPECT_LT((sole(model::Side::Right).translation() - Vector3(0.02, -0.06, -0.32)).norm(), 1e-9);
-  for (int i = 0; i < 5; ++i) step();
+  for (int i = 0; i < 30; ++i) step();
   EXPECT_LT((sole(model::Side::Left).translation() - Vector3(-0.02, 0.05, -0.35)).norm(), 1e-9);
   const Matrix3 turned = sole(model::Side::Left).linear();
   EXPECT_NEAR(std::atan2(turned(1, 0), turned(0, 0)), toRadians(10.0), 1e-9);

@@ -30,6 +30,10 @@ using LegAngles = std::array<double, 6>;
 /// leg has a hip yaw-pitch joint of its own, unlike the real Nao, where both share one.
 Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles);
 
+/// True if legInverseKinematics() would meet the pose exactly; the angles are its answer then. Never fits, so
+/// it costs the same everywhere.
+bool legReaches(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles);
+
 /// Changes the angles so that the sole goes by `way` (torso frame, m) from where they have it, turned as
 /// before: for small ways, by damped Newton steps. Near a stretched leg it goes as far as it can; limits are
 /// not looked at.

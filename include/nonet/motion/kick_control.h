@@ -3,9 +3,13 @@
 //
 // Needs: the catalogue, the request, the walk. Gives: a speed to walk with, or the kick to begin now.
 // After [MacAlpine 2012a, section 5.2]: the cost of a kick is the way to its place in metres, the turn as a
-// share of a full one, half a metre when the robot must go around the ball; the time to contact is ours.
+// share of a full one, half a metre when the robot must go around the ball; the time to contact is ours. A
+// kick along a curve begins only when the foot can follow it; otherwise the next cheapest is looked at.
 #pragma once
 
+#include <array>
+
+#include "nonet/motion/curve_check.h"
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/motion/kick_parameters.h"
 #include "nonet/motion/request.h"
@@ -25,8 +29,10 @@ struct KickStep {
 
 class KickControl {
  public:
-  KickControl(const KickCatalogue& catalogue, const KickParameters& parameters)
-      : catalogue_(&catalogue), parameters_(parameters) {}
+  /// What it is given must outlive it, but for the parameters. Without `check` no curve is looked at.
+  KickControl(const KickCatalogue& catalogue, const KickParameters& parameters,
+              const CurveCheck* check = nullptr)
+      : catalogue_(&catalogue), check_(check), parameters_(parameters) {}
 
   /// One cycle in which a kick is asked for. `quiet`: s, for which the robot has stood quietly.
   KickStep update(const KickTo& request, const WalkEngine& walk, double quiet);
@@ -42,15 +48,21 @@ class KickControl {
 
   Way wayTo(const KickOption& option, const KickTo& request) const;
   double cost(const KickOption& option, const KickTo& request) const;
+  bool serves(const KickOption& option, const KickTo& request) const;
   const KickOption* choose(const KickTo& request) const;
+  KickStep stepFor(const KickTo& request, const WalkEngine& walk, double quiet);
   KickTo after(double seconds, const KickTo& request, const WalkEngine& walk) const;
   WalkVelocity lastSteps(const Way& way, const Vector2& along) const;
   bool within(double share, const Way& way) const;
 
+  static constexpr std::size_t kMostChecks = 3;  // in a cycle: what they cost is bounded
+
   const KickCatalogue* catalogue_;
+  const CurveCheck* check_;
   KickParameters parameters_;
   const KickOption* chosen_ = nullptr;
-  bool comesToStand_ = false;  // in the last cycle
+  std::array<const KickOption*, kMostChecks> refused_{};  // in this cycle
+  bool comesToStand_ = false;                             // in the last cycle
 };
 
 }  // namespace nonet::motion

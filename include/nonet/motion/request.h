@@ -40,13 +40,14 @@ struct PlaySkill {
   friend bool operator==(const PlaySkill&, const PlaySkill&) = default;
 };
 
-/// Kicks the ball that lies at `ball` so that it comes to rest at `target` (both in the present robot frame,
-/// m). Motion chooses kick and foot, takes the last steps and begins when the ball lies right.
+/// Kicks the ball that lies at `ball` to `target` (both in the present robot frame, m). Motion chooses kick
+/// and foot, takes the last steps and begins when the ball lies right.
 struct KickTo {
   Vector2 ball = Vector2::Zero();
   Vector2 target = Vector2::Zero();
   Vector2 ballVelocity = Vector2::Zero();                 // robot axes, m/s
   double room = std::numeric_limits<double>::infinity();  // m, from the ball to the nearest opponent
+  bool stops = false;                                     // a pass: it is to come to rest there, not beyond
   InlineString<32> kick;                                  // this one only; empty: the cheapest
 };
 

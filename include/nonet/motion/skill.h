@@ -34,12 +34,15 @@ struct KickAim {
   Vector2 ball = Vector2::Zero();  // where it will find the ball, robot frame on the ground, m
   double turn = 0.0;               // how far to the left of its own direction the ball should go, rad
   Vector2 pace = Vector2::Zero();  // of the steps out of which it begins, robot axes, m/s
+  double distance = 0.0;           // how far the ball should go, m
 };
 
 /// What a kick can suit itself to when it begins, as the left foot does it: how far ahead of its place
 /// (KickHead::p_RBall) and to the left of it the ball is believed to lie, m; how far to the left of the
-/// kick's own direction it should go, rad; the pace of the steps, ahead and to the left, m/s.
-constexpr int kKickInputs = 5;
+/// kick's own direction it should go, rad; the pace of the steps, ahead and to the left, m/s; how far the
+/// ball should go, within what the head serves, m.
+constexpr int kKickInputs = 6;
+constexpr int kDistanceInput = 5;
 using KickInputs = Eigen::Matrix<double, kKickInputs, 1>;
 
 /// A number of a skill: `constant` and a multiple of each input.
@@ -72,6 +75,7 @@ struct KickHead {
   double room = 0.0;         // m that no opponent may be nearer to the ball
   std::uint32_t types = 31;  // bit per robot type
   bool fromWalk = false;     // begins out of steps; otherwise from a quiet stand
+  bool scales = false;       // the ball goes as far as is asked for; otherwise always about `longest`
 
   bool serves(int robotType) const { return ((types >> robotType) & 1U) != 0; }
   /// The ball goes where the robot faces, give or take what can be varied; otherwise to the side.

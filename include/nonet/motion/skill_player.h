@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "nonet/math/hermite_spline.h"
+#include "nonet/motion/foot_curve.h"
 #include "nonet/motion/limbs.h"
 #include "nonet/motion/request.h"
 #include "nonet/motion/skill_library.h"
@@ -40,6 +40,15 @@ class SkillPlayer {
   };
   Place statement() const;
 
+  /// The last curve since the start that takes longer than its text says, since a joint would be too fast.
+  struct Stretch {
+    int line = 0;         // of its file
+    double wanted = 0.0;  // s
+    double taken = 0.0;   // s
+    friend bool operator==(const Stretch&, const Stretch&) = default;
+  };
+  const std::optional<Stretch>& stretch() const { return stretch_; }
+
   /// One cycle. The targets keep their last values when the skill is over.
   Result update(const world::WorldState& world, JointTargets& targets);
 
@@ -67,9 +76,9 @@ class SkillPlayer {
   void placeSwing(JointTargets& targets) const;
   void planCurve(const Instruction& instruction, bool mirrored, const world::WorldState& world);
   void placeFeet(const Instruction& instruction, bool mirrored, double share, JointTargets& targets) const;
-  void placeOnCurve(double share, JointTargets& targets) const;
-  void setLeg(model::Side side, const Vector3& position, const Vector3& rollPitchYaw,
-              JointTargets& targets) const;
+  Vector3 curveOrigin(const Instruction& instruction, const world::WorldState& world) const;
+  void followBall(const Instruction& instruction, const world::WorldState& world);
+  void setLeg(model::Side side, const Pose3& X_RS, JointTargets& targets) const;
   Frame& top() { return frames_[static_cast<std::size_t>(depth_ - 1)]; }
 
   const model::RobotModel* model_;
@@ -88,10 +97,9 @@ class SkillPlayer {
   FootPoses feetFrom_{};         // sole poses at its begin
   std::optional<Vector2> ball_;  // given at the start
   KickInputs inputs_ = KickInputs::Zero();
-  // The present curve, over its share 0..1: sole in the torso frame, m; attitude at the points, rad.
-  HermiteSpline<Vector3, Instruction::kMostPoints + 1> curve_;
-  std::array<Vector3, Instruction::kMostPoints + 1> curveAttitudes_{};
-  model::Side curveSide_ = model::Side::Left;
+  FootCurve curve_;                   // the present one
+  Vector3 anchor_ = Vector3::Zero();  // its origin when it was planned
+  std::optional<Stretch> stretch_;
 };
 
 }  // namespace nonet::motion

@@ -1,11 +1,8 @@
 #include "nonet/lab/reports/kick_report.h"
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "nonet/lab/common/statistics.h"
@@ -24,12 +21,13 @@ KickFigure figureOf(const std::vector<double>& sample) {
   return {mean(sample), quantile(sample, 0.5), quantile(sample, 0.1)};
 }
 
-KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks) {
+KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks, double asked) {
   KickStatistics s;
   s.name = name;
   s.trials = static_cast<int>(kicks.size());
   const auto share = 1.0 / static_cast<double>(s.trials);
   std::vector<double> distances;
+  std::vector<double> reached;
   std::vector<double> heights;
   std::vector<double> directions;
   std::vector<double> times;
@@ -38,6 +36,7 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks) {
     s.misses += kick.missed() ? share : 0.0;
     s.under2m += kick.tooShort() ? share : 0.0;
     distances.push_back(kick.forward);
+    reached.push_back(kick.forward / asked);
     heights.push_back(kick.height);
     if (kick.missed()) continue;
     directions.push_back(std::abs(kick.direction()));
@@ -45,6 +44,7 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks) {
     s.withinTen += std::abs(kick.direction()) < toRadians(10.0) ? share : 0.0;
   }
   s.distance = figureOf(distances);
+  s.reached = figureOf(reached);
   s.height = figureOf(heights);
   s.directionError = figureOf(directions);
   s.time = figureOf(times);
@@ -73,13 +73,11 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
   std::vector<std::string> names = {settings.kick};
   if (settings.kick == "all") {
     names = known;
-  } else if (settings.kick != "any" && std::find(known.begin(), known.end(), settings.kick) == known.end()) {
-    throw std::runtime_error(fmt::format("type {} has no kick '{}': use any, all or one of {}",
-                                         settings.agent.robotType, settings.kick, fmt::join(known, ", ")));
   }
   std::vector<KickStatistics> report;
   const Random seeds(settings.seed);
   for (const std::string& name : names) {
+    const bool scales = name != "any" && kickHead(settings.agent, name).scales;
     std::vector<Kick> kicks(static_cast<std::size_t>(settings.trials));
     inParallel(settings.trials, settings.threads, settings.progress, name, [&](int i) {
       KickScene scene;
@@ -88,25 +86,28 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
       scene.rolling = settings.rolling;
       scene.pushed = settings.pushed;
       scene.distance = settings.distance;
+      scene.stops = settings.stops || scales;
       scene.bearing = kickBearing(i);
       kicks[static_cast<std::size_t>(i)] =
           kickOnce(settings.agent, sim::Settings{}, scene, seeds.fork(static_cast<std::uint64_t>(i)).next());
     });
-    report.push_back(statisticsOf(name, std::move(kicks)));
+    report.push_back(statisticsOf(name, std::move(kicks), settings.distance));
   }
   return report;
 }
 
 std::string kickReportTable(const std::vector<KickStatistics>& report) {
-  std::string out = fmt::format("{:<20} {:>7} {:>6} {:>6} {:>9} | {:>6} {:>7} {:>6} | {:>8} {:>6} {:>7}\n",
-                                "kick", "trials", "falls", "misses", "under 2 m", "mean m", "median", "p10",
-                                "off deg", "time s", "high m");
+  std::string out = fmt::format(
+      "{:<20} {:>7} {:>6} {:>6} {:>9} | {:>6} {:>7} {:>6} {:>8} | {:>8} {:>6} {:>7}\n", "kick", "trials",
+      "falls", "misses", "under 2 m", "mean m", "median", "p10", "of asked", "off deg", "time s", "high m");
   for (const KickStatistics& s : report) {
     out += fmt::format(
-        "{:<20} {:>7} {:>5.1f}% {:>5.1f}% {:>8.1f}% | {:>6.2f} {:>7.2f} {:>6.2f} | {:>8.1f} {:>6.2f} "
+        "{:<20} {:>7} {:>5.1f}% {:>5.1f}% {:>8.1f}% | {:>6.2f} {:>7.2f} {:>6.2f} {:>7.0f}% | {:>8.1f} "
+        "{:>6.2f} "
         "{:>7.2f}\n",
         s.name, s.trials, 100.0 * s.falls, 100.0 * s.misses, 100.0 * s.under2m, s.distance.mean,
-        s.distance.median, s.distance.p10, toDegrees(s.directionError.mean), s.time.mean, s.height.mean);
+        s.distance.median, s.distance.p10, 100.0 * s.reached.median, toDegrees(s.directionError.mean),
+        s.time.mean, s.height.mean);
   }
   return out;
 }
@@ -116,7 +117,9 @@ std::string kickReportJson(const std::vector<KickStatistics>& report, const Kick
   for (const KickStatistics& s : report) {
     json[s.name] = {{"type", settings.agent.robotType},
                     {"trials", s.trials},
+                    {"asked_m", settings.distance},
                     {"distance_m", jsonOf(s.distance)},
+                    {"of_asked", jsonOf(s.reached)},
                     {"height_1m_m", jsonOf(s.height)},
                     {"direction_error_deg", jsonOf(s.directionError, toDegrees(1.0))},
                     {"time_s", jsonOf(s.time)},

@@ -159,6 +159,10 @@ std::string skillReportText(const SkillTrial& trial, const SkillTrialSettings& s
   const auto [joint, error] = worstAtEnd(trial);
   text += fmt::format("  joints   {} moved; at the end the farthest off is {} by {:.1f} deg\n",
                       trial.moved().size(), motion::jointWord(joint), toDegrees(error));
+  for (const motion::SkillPlayer::Stretch& stretch : trial.stretches)
+    text +=
+        fmt::format("  curve    of line {} takes {:.2f} s instead of {:.2f} s: its joints are no faster\n",
+                    stretch.line, stretch.taken, stretch.wanted);
   if (!trial.kick) return text;
   const SkillKick& kick = *trial.kick;
   text += fmt::format("  ball     {:.3f} m ahead and {:.3f} m to the left of the torso: ", kick.p_RPlace.x(),
@@ -189,6 +193,9 @@ std::string skillReportJson(const SkillTrial& trial, const SkillTrialSettings& s
                                  {"joints", jointsJson(trial)}};
   for (const SkillMark& mark : trial.marks)
     json["statements"].push_back({{"time_s", mark.time}, {"skill", mark.skill}, {"line", mark.line}});
+  for (const motion::SkillPlayer::Stretch& stretch : trial.stretches)
+    json["stretched_curves"].push_back(
+        {{"line", stretch.line}, {"wanted_s", stretch.wanted}, {"taken_s", stretch.taken}});
   if (trial.kick) json["kick"] = toJson(*trial.kick);
   return json.dump(2) + "\n";
 }

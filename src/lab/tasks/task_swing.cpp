@@ -1,7 +1,9 @@
 // swing_NAME: the kick kick_NAME from the moment it begins (swing_trial.h). For finding a kick's numbers
 // before kick_NAME polishes them with the approach. The fitness is the distance towards the target less what
 // goes aside, 1.2 m for every second until contact and what the robot leans afterwards, less half the spread
-// over the starts; -1 for a miss or a ball that leaves by more than ten degrees, and up to that for a fall.
+// over the starts; for a kick that goes as far as is asked for, the error counts instead of the distance. A
+// ball that leaves by more than ten degrees gets less than -1, the less the farther off it is, so that a
+// search finds to the direction; no contact is worse, and a fall costs up to 1.
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -21,10 +23,12 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kStarts = 320;        // that are stored: fewer are learned by heart
-constexpr int kSwings = 8;          // a trial
-constexpr double kPenalty = -1.0;   // m
-constexpr double kPerSecond = 1.2;  // m/s
+constexpr int kStarts = 320;         // that are stored: fewer are learned by heart
+constexpr int kSwings = 8;           // a trial
+constexpr double kPenalty = -1.0;    // m
+constexpr double kNoContact = -3.0;  // m
+constexpr double kPerTurn = 1.0;     // m, for a ball that goes the opposite way
+constexpr double kPerSecond = 1.2;   // m/s
 constexpr double kStraight = toRadians(10.0);
 constexpr double kLeans = 0.3;         // rad, free
 constexpr double kPerLean = 2.0;       // m/rad
@@ -35,6 +39,8 @@ constexpr double kRolling = 0.3;       // m/s
 constexpr double kNearest = 0.3;
 constexpr double kFarthest = 1.5;
 constexpr std::uint64_t kSeed = 26;  // of the starts
+constexpr double kDistance = 10.0;   // m, that is asked of kicks that go always as far
+constexpr double kExact = 4.0;       // m, worth of one that goes exactly as far as is asked for
 
 using Starts = std::vector<KickStart>;
 
@@ -50,19 +56,21 @@ Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
     scene.rolling = i % 3 == 0 ? kRolling : 0.0;
     Random random = seeds.fork(static_cast<std::uint64_t>(i));
     scene.start = random.uniform(kNearest, kFarthest);
-    if (auto start = kickStart(agent, sim::Settings{}, scene, random.next()))
+    if (auto start = kickStart(agent, serverOf(settings), scene, random.next()))
       starts.push_back(std::move(*start));
   }
   if (starts.empty()) throw std::runtime_error(fmt::format("no robot of this type comes to {}", kick));
   return starts;
 }
 
-double gained(const Swing& swing) {
+double gained(const Swing& swing, bool scales, double distance) {
   const Kick& kick = swing.kick;
-  if (kick.missed() || std::abs(kick.direction()) > kStraight) return kPenalty;
+  if (!kick.contact) return kNoContact;
+  const double off = std::abs(kick.direction());
+  if (kick.missed() || off > kStraight) return kPenalty - kPerTurn * off / kPi;
   if (kick.fell) return kPenalty * (1.0 - std::min(1.0, swing.upright / kLastsUpright));
-  return kick.forward - std::abs(kick.aside) - kPerSecond * kick.time -
-         kPerLean * std::max(0.0, swing.lean - kLeans);
+  return (scales ? kExact - std::abs(kick.forward - distance) : kick.forward) - std::abs(kick.aside) -
+         kPerSecond * kick.time - kPerLean * std::max(0.0, swing.lean - kLeans);
 }
 
 class SwingTask final : public Task {
@@ -83,18 +91,20 @@ class SwingTask final : public Task {
     agent.skillFolder = settings.dataFolder + "/skills";
     SwingTrial trial(agent, kick_, settings.quickSolver);
     const Starts& starts = startsOf(settings);
+    const motion::KickHead head = trial.head();
     Random random = Random(seed).fork(7);
     double sum = 0.0, squares = 0.0, distance = 0.0, speed = 0.0, falls = 0.0, failures = 0.0;
     for (int i = 0; i < kSwings; ++i) {
       const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(starts.size()));
-      const Swing swing = trial.run(starts[std::min(chosen, starts.size() - 1)]);
-      const double value = gained(swing);
+      const double asked = head.scales ? random.uniform(head.shortest, head.longest) : kDistance;
+      const Swing swing = trial.run(starts[std::min(chosen, starts.size() - 1)], asked);
+      const double value = gained(swing, head.scales, asked);
       sum += value / kSwings;
       squares += value * value / kSwings;
       distance += swing.kick.forward / kSwings;
       speed += swing.kick.ballSpeed / kSwings;
       falls += swing.kick.fell ? 1.0 : 0.0;
-      failures += value == kPenalty ? 1.0 / kSwings : 0.0;
+      failures += value <= kPenalty ? 1.0 / kSwings : 0.0;
     }
     TaskResult result;
     result.fitness = sum - kSpread * std::sqrt(std::max(0.0, squares - sum * sum));

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "nonet/lab/trial/game_trial.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
+#include "nonet/motion/kick_catalogue.h"
 #include "nonet/world/ball_law.h"
 
 #include "lab/trial/kicker.h"
@@ -62,6 +66,19 @@ double Kick::direction() const {
 
 double kickBearing(int trial) {
   return kPi * ((trial % kBearings + 0.5) / kBearings - 0.5);
+}
+
+motion::KickHead kickHead(const agent::AgentSettings& agent, const std::string& kick) {
+  const motion::SkillLibrary library(agent.skillFolder, agent.parameters.motion.skills);
+  const motion::KickCatalogue catalogue(library, agent.robotType);
+  std::string known;
+  for (const motion::KickOption& option : catalogue.options()) {
+    if (option.name == kick) return option.head;
+    if (option.foot == model::Side::Left)
+      known += fmt::format("{}{}", known.empty() ? "" : ", ", option.name);
+  }
+  throw std::runtime_error(
+      fmt::format("type {} has no kick '{}': use any, all or one of {}", agent.robotType, kick, known));
 }
 
 Kick kickOnce(const agent::AgentSettings& agent, const sim::Settings& settings, const KickScene& scene,

@@ -10,8 +10,9 @@
 
 namespace nonet::lab {
 
-Kicker::Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick)
-    : parameters_(parameters), p_FTarget_(p_FTarget) {
+Kicker::Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick,
+               bool stops)
+    : parameters_(parameters), p_FTarget_(p_FTarget), stops_(stops) {
   kick_.assign(kick);
 }
 
@@ -43,6 +44,7 @@ team::Action Kicker::operator()(const world::WorldState& world, const motion::Mo
     if (!action) continue;
     if (auto* request = std::get_if<motion::KickTo>(&action->motion)) {
       request->kick = kick_;
+      request->stops = stops_;
       request->target = world.self.X_FR.inverse() * p_FTarget_;
     }
     action->head = team::lookAtBall(world);
@@ -58,7 +60,7 @@ KickGame kickGame(const agent::AgentSettings& agent, const KickScene& scene, Ran
   KickGame game;
   game.p_FTarget = ball + scene.distance * unitVector(heading);
   const double from = heading + scene.bearing;
-  game.kicker = std::make_shared<Kicker>(agent.parameters.team, game.p_FTarget, scene.kick);
+  game.kicker = std::make_shared<Kicker>(agent.parameters.team, game.p_FTarget, scene.kick, scene.stops);
   const Mind mind = [kicker = game.kicker](const world::WorldState& world,
                                            const motion::MotionState& motion) {
     return (*kicker)(world, motion);

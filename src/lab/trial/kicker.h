@@ -15,10 +15,11 @@ namespace nonet::lab {
 
 constexpr double kHit = 0.7;  // m/s that a kick adds at least to the ball's speed in a cycle
 
-/// Plays the ball to a place with the kick of that name; empty: motion chooses.
+/// Plays the ball to a place with the kick of that name; empty: motion chooses. `stops`: and not beyond it.
 class Kicker {
  public:
-  Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick);
+  Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick,
+         bool stops);
 
   team::Action operator()(const world::WorldState& world, const motion::MotionState& motion);
 
@@ -30,6 +31,7 @@ class Kicker {
   team::TeamParameters parameters_;
   Vector2 p_FTarget_;
   InlineString<32> kick_;
+  bool stops_;
 };
 
 /// A robot, a ball and where it should go. The kicker belongs to the situation's only player.

@@ -133,7 +133,11 @@ class Stage {
 
   void begin() {
     std::optional<motion::KickAim> aim;
-    if (trial_.kick) aim.emplace().ball = trial_.kick->p_RPlace;
+    if (trial_.kick) {
+      const motion::Skill& skill = library_.skill(library_.find(settings_.skill));
+      aim.emplace().ball = trial_.kick->p_RPlace;
+      if (skill.kick) aim->distance = skill.kick->longest;
+    }
     targets_.angles = robot_.world().body.joints;
     targets_.stiffness.fill(1.0);
     player_.start(settings_.skill, settings_.mirrored, targets_.angles, aim);
@@ -166,10 +170,12 @@ class Stage {
       believed_ = robot_.world();
       if (trial_.kick) {  // the eyes are no part of what is tried
         believed_.ball.known = true;
+        believed_.ball.v_FB = ball().v_FB;
         believed_.ball.p_RB = truePose(world(), body()).inverse() * Vector2(ball().p_FB.head<2>());
       }
       mark(time);
       const motion::SkillPlayer::Result result = player_.update(believed_, targets_);
+      noteStretch();
       using Result = SkillTrial::Result;
       // A skill of whole cycles says in the cycle after its last that there is no more.
       trial_.duration = result == motion::SkillPlayer::Result::Running ? time + kCycleTime : time;
@@ -185,6 +191,14 @@ class Stage {
         trial_.marks.back().skill == place.skill)
       return;
     if (place.line > 0) trial_.marks.push_back({time, std::string(place.skill), place.line});
+  }
+
+  // One statement may be played more than once.
+  void noteStretch() {
+    const std::optional<motion::SkillPlayer::Stretch>& stretch = player_.stretch();
+    if (!stretch) return;
+    if (!trial_.stretches.empty() && trial_.stretches.back() == *stretch) return;
+    trial_.stretches.push_back(*stretch);
   }
 
   void watchBall(SkillKick& kick, const SkillCycle& now) const {

@@ -10,6 +10,7 @@
 
 #include "nonet/lab/trial/game_trial.h"
 #include "nonet/lab/trial/true_pose.h"
+#include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 #include "nonet/motion/joint_control.h"
@@ -24,10 +25,12 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kStands = 0.8;    // s after the kick's end that the robot must stand,
-constexpr double kSettles = 0.2;   // or this long if it is nearly upright and
-constexpr double kUpright = 0.15;  // rad
-constexpr double kAtRest = 0.3;    // rad/s, hardly turns any more
+constexpr double kStands = 0.8;     // s after the kick's end that the robot must stand,
+constexpr double kSettles = 0.2;    // or this long if it is nearly upright and
+constexpr double kUpright = 0.15;   // rad
+constexpr double kAtRest = 0.3;     // rad/s, hardly turns any more
+constexpr double kElsewhere = 1.0;  // rad, so far off its direction the ball is of no use,
+constexpr double kOnItsWay = 0.1;   // s after contact, when its way is clear
 
 const motion::KickOption* optionOf(const motion::KickCatalogue& catalogue, std::string_view kick,
                                    model::Side foot) {
@@ -103,7 +106,7 @@ struct SwingTrial::Implementation {
     return {world.ballPosition().cast<double>(), world.ballVelocity().cast<double>()};
   }
 
-  void begin(const KickStart& start) {
+  void begin(const KickStart& start, const std::optional<double>& distance) {
     world.restore(start.world);
     robot = world.robots().front();
     const motion::KickOption& option = *optionOf(catalogue, kick, start.foot);
@@ -122,11 +125,16 @@ struct SwingTrial::Implementation {
     state.body = body;
     motion::KickAim aim = start.aim;
     aim.ball += moved;
+    aim.distance = distance.value_or(aim.distance);
     player.start(kick, start.foot == model::Side::Right, targets.angles, aim);
   }
 
-  Swing run(const KickStart& start) {
-    begin(start);
+  bool goesElsewhere() const {
+    return std::abs(angleDifference(directionOf(ball().v_FB.head<2>()), direction)) > kElsewhere;
+  }
+
+  Swing run(const KickStart& start, const std::optional<double>& distance) {
+    begin(start, distance);
     Swing swing;
     Kick& result = swing.kick;
     double time = 0.0;
@@ -155,6 +163,8 @@ struct SwingTrial::Implementation {
       }
       settled = over > kSettles && tilt < kUpright && std::abs(tilt - tiltBefore) < kAtRest * kCycleTime;
       result.fell = isDown(world, robot);
+      if (over > 0.0 && !result.contact) break;
+      if (result.contact && time > result.time + kOnItsWay && goesElsewhere()) break;
     }
     const Vector2 way = aim.inverse() * world::restPlace(ball());
     result.forward = way.x();
@@ -183,8 +193,12 @@ SwingTrial::SwingTrial(const agent::AgentSettings& agent, const std::string& kic
     : implementation_(std::make_unique<Implementation>(agent, kick, quickSolver)) {}
 SwingTrial::~SwingTrial() = default;
 
-Swing SwingTrial::run(const KickStart& start) {
-  return implementation_->run(start);
+const motion::KickHead& SwingTrial::head() const {
+  return optionOf(implementation_->catalogue, implementation_->kick, model::Side::Left)->head;
+}
+
+Swing SwingTrial::run(const KickStart& start, const std::optional<double>& distance) {
+  return implementation_->run(start, distance);
 }
 
 }  // namespace nonet::lab

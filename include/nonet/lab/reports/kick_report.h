@@ -19,6 +19,7 @@ struct KickReportSettings {
   double rolling = 0.0;      // m/s, the fastest that the ball rolls at the begin
   double pushed = 0.0;       // m/s, how fast it rolls towards the target at the begin
   double distance = 10.0;    // m, how far the ball is wanted to go
+  bool stops = false;        // and no farther: motion chooses as for a pass
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it
   TrialProgress progress{};
@@ -35,6 +36,7 @@ struct KickStatistics {
   std::string name;
   int trials = 0;
   KickFigure distance;        // m towards the target; a miss counts with what it made
+  KickFigure reached;         // share of the distance asked for
   KickFigure height;          // m, of the ball's centre a metre from where it lay
   KickFigure directionError;  // rad, of the kicks that hit
   KickFigure time;            // s until contact, of the kicks that hit

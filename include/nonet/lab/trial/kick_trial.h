@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nonet/agent/agent.h"
+#include "nonet/motion/skill.h"
 #include "nonet/sim/settings/settings.h"
 
 namespace nonet::lab {
@@ -18,6 +19,7 @@ struct KickScene {
   double rolling = 0.0;    // m/s, the fastest that the ball rolls at the begin, in any direction
   double pushed = 0.0;     // m/s, and how fast towards where it should go, as after a push of the dribbler
   double distance = 10.0;  // m, how far it should go
+  bool stops = false;      // and no farther: a pass
   double longest = 10.0;   // s until the contact
 };
 
@@ -39,6 +41,10 @@ struct Kick {
 /// The same arguments always give the same kick.
 Kick kickOnce(const agent::AgentSettings& agent, const sim::Settings& settings, const KickScene& scene,
               std::uint64_t seed);
+
+/// Head of the kick of that name, for the left foot. Throws std::runtime_error if this robot has no such
+/// kick, naming those that it has.
+motion::KickHead kickHead(const agent::AgentSettings& agent, const std::string& kick);
 
 /// Ten bearings on a half circle, one after the other.
 double kickBearing(int trial);

@@ -10,6 +10,7 @@
 
 #include "nonet/agent/agent.h"
 #include "nonet/model/joints.h"
+#include "nonet/motion/skill_player.h"
 
 namespace nonet::lab {
 
@@ -59,7 +60,8 @@ struct SkillTrial {
   bool fell = false;      // the torso was below 0.55 of the standing height: it lay or knelt
   std::vector<SkillCycle> cycles;
   std::vector<SkillMark> marks;
-  std::optional<SkillKick> kick;  // if there was a ball
+  std::vector<motion::SkillPlayer::Stretch> stretches;  // of curves that take longer than they should
+  std::optional<SkillKick> kick;                        // if there was a ball
 
   /// Joints whose target changes, in the order of JointId.
   std::vector<model::JointId> moved() const;

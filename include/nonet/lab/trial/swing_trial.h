@@ -42,9 +42,13 @@ class SwingTrial {
   SwingTrial(const agent::AgentSettings& agent, const std::string& kick, bool quickSolver);
   ~SwingTrial();
 
-  /// When the kick has another place for the ball now than when the start was stored, the ball is moved by
-  /// the difference.
-  Swing run(const KickStart& start);
+  const motion::KickHead& head() const;  // for the left foot
+
+  /// The ball should go `distance` far, m; without it as far as when the start was stored. When the kick has
+  /// another place for the ball now than when the start was stored, the ball is moved by the difference. It
+  /// ends soon when the kick is over and has not met the ball, or when the ball goes quite elsewhere: then
+  /// nothing is known of a fall.
+  Swing run(const KickStart& start, const std::optional<double>& distance = {});
 
  private:
   struct Implementation;
