@@ -9,6 +9,8 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 
+#include "team/play_value.h"
+
 namespace nonet::team {
 
 namespace {
@@ -18,24 +20,7 @@ constexpr double kStep = toRadians(10.0);
 constexpr int kAllDirections = 36;       // of that step, all around
 constexpr double kSlowRoll = 3.0;        // s until a kicked ball is slow enough to be taken
 constexpr double kSameKick = 0.2;        // rad
-constexpr double kAtBall = 0.15;         // m
 constexpr double kGoalLineMargin = 0.1;  // m beyond the line that a shot must reach
-
-double logistic(double x) {
-  return 1.0 / (1.0 + std::exp(-x));
-}
-
-// With the ball at p_F, ours with probability `ours`.
-double valueAt(const Situation& s, const Vector2& p_F, double ours) {
-  const auto& field = s.world.field;
-  const ChoiceParameters& p = s.parameters.choice;
-  return ours * worthOf(p_F, field, p) - (1.0 - ours) * worthOf(-p_F, field, p);
-}
-
-double arrival(const world::PlayerState& player, const Vector2& p_F, double pace, double risingTime) {
-  if (!player.known) return std::numeric_limits<double>::infinity();
-  return (player.X_FP.translation - p_F).norm() / pace + (player.fallen ? risingTime : 0.0);
-}
 
 // s until the first of them is there; infinite without any.
 double soonest(std::span<const world::PlayerState> players, const Vector2& p_F, double pace,
@@ -46,48 +31,13 @@ double soonest(std::span<const world::PlayerState> players, const Vector2& p_F, 
   return least;
 }
 
-// That we need `ours` and they `theirs` seconds, which may be infinite: the probability that we are first.
-double first(double ours, double theirs, double spread) {
-  return std::isinf(theirs) ? 1.0 : logistic((theirs - ours) / spread);
-}
-
 // The probability that one of us is first at a ball that comes to rest there; nobody takes it before it is
 // slow. The goalie stays at home.
 double oursAt(const Situation& s, const Vector2& p_F) {
   const ChoiceParameters& p = s.parameters.choice;
   const double own = std::max(teammatesTime(s, p_F), kSlowRoll) + p.late;
   const double theirs = std::max(opponentsTime(s, p_F), kSlowRoll);
-  return first(own, theirs, p.arrivalSpread);
-}
-
-// The opponent that most likely stops a ball on its way: with which probability, and where.
-struct Block {
-  double probability = 0.0;
-  Vector2 p_F = Vector2::Zero();
-};
-
-Block blockOf(const Situation& s, const Vector2& way) {
-  const ChoiceParameters& p = s.parameters.choice;
-  const Vector2 ball = s.ball();
-  const double length = std::max(way.norm(), 1e-6);
-  const Vector2 along = way / length;
-  Block block;
-  double passes = 1.0;
-  for (const world::PlayerState& opponent : s.world.opponents) {
-    if (!opponent.known || opponent.fallen) continue;
-    const Vector2 offset = opponent.X_FP.translation - ball;
-    const double ahead = offset.dot(along);
-    if (ahead < 0.0 || ahead > length) continue;
-    const double aside = std::abs(along.x() * offset.y() - along.y() * offset.x());
-    const double reach = p.blockWidth + (p.blockGrowth + p.spread) * ahead;
-    const double stops = std::clamp(1.5 - aside / std::max(reach, 1e-6), 0.0, 1.0);
-    passes *= 1.0 - stops;
-    if (stops <= block.probability) continue;
-    block.probability = stops;
-    block.p_F = opponent.X_FP.translation;
-  }
-  block.probability = 1.0 - passes;
-  return block;
+  return probabilityFirst(own, theirs, p.arrivalSpread);
 }
 
 // Of ending at p_F, which may be out of the field.
@@ -99,29 +49,6 @@ double endValue(const Situation& s, const Vector2& p_F) {
                        std::clamp(p_F.y(), -0.5 * field.width, 0.5 * field.width));
   const ChoiceParameters& p = s.parameters.choice;
   return -worthOf(-inside, field, p) - p.out * worthOf(inside, field, p);
-}
-
-// s from now until the foot meets the ball in this kick in this direction (docs/results.md, contact times).
-double timeToContact(const Situation& s, const motion::KickHead& kick, double direction) {
-  const ChoiceParameters& p = s.parameters.choice;
-  const Pose2& X_FR = s.world.self.X_FR;
-  const Vector2 way = s.ball() - X_FR.translation;
-  // Near the ball, where it lies from the torso says nothing.
-  const double besides = way.norm() > kAtBall ? 1.0 - std::cos(directionOf(way) - direction) : 0.0;
-  const double turned = 1.0 - std::cos(X_FR.rotation - direction);
-  return way.norm() / p.kickPace + p.kickAround * std::max(besides, turned) + kick.contact +
-         (kick.fromWalk ? p.setupWalk : p.setupStand);
-}
-
-double dribbleValue(const Situation& s) {
-  const ChoiceParameters& p = s.parameters.choice;
-  const Vector2 way = s.p_FTarget - s.ball();
-  const double direction = directionOf(way);
-  const Vector2 end = s.ball() + std::min(p.dribbleAhead, way.norm()) * unitVector(direction);
-  // Robots at the ball bar the way, and those farther on will.
-  const double near = barred(s.world, s.parameters.target, direction);
-  const double lost = p.dribbleLoss * std::max(near, blockOf(s, end - s.ball()).probability);
-  return valueAt(s, end, 1.0 - lost);
 }
 
 struct Fan {
@@ -174,11 +101,6 @@ double teammatesTime(const Situation& s, const Vector2& p_F) {
   return least;
 }
 
-double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& p) {
-  const Vector2 goal(0.5 * field.length, 0.0);
-  return p.worthMost * std::exp(-(goal - p_F).norm() / p.worthScale);
-}
-
 double kickValue(const Situation& s, double direction, double length, bool mayScore) {
   const ChoiceParameters& p = s.parameters.choice;
   const double toLine =
@@ -213,7 +135,8 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
   weighKicks(s, {directionOf(toGoal), -kDirections, kDirections}, record, best,
              [&](const motion::KickHead& kick, double direction, double length) {
-               const double comesOff = first(timeToContact(s, kick, direction), left, p.setupSpread);
+               const double comesOff =
+                   probabilityFirst(timeToContact(s, kick, direction), left, p.setupSpread);
                return comesOff * kickValue(s, direction, length) + (1.0 - comesOff) * contested;
              });
   return best;

@@ -20,6 +20,7 @@ constexpr std::array kStrategy = {
     StrategyEntry{"receive", receive},
     StrategyEntry{"go to ball", goToBall},
     StrategyEntry{"shoot", shoot},
+    StrategyEntry{"pass", pass},
     StrategyEntry{"kick", kick},
     StrategyEntry{"kick aside", kickAside},
     StrategyEntry{"dribble", dribble},
@@ -28,6 +29,7 @@ constexpr std::array kStrategy = {
     StrategyEntry{"guard goal", guardGoal},
     StrategyEntry{"opponent set piece", opponentSetPiece},
     StrategyEntry{"own set piece", ownSetPiece},
+    StrategyEntry{"run to pass", runToPass},
     StrategyEntry{"support", support},
 };
 

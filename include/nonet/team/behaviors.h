@@ -31,6 +31,8 @@ std::optional<Action> receive(const Situation& situation);
 std::optional<Action> goToBall(const Situation& situation);
 /// One's turn, near, the goal can be hit: the last steps for the kick that does it, and the kick.
 std::optional<Action> shoot(const Situation& situation);
+/// One's turn, near, a mate can be first where it is worth more: the last steps for a pass, and the pass.
+std::optional<Action> pass(const Situation& situation);
 /// One's turn, near: the last steps to the place for a kick, and the kick.
 std::optional<Action> kick(const Situation& situation);
 /// One's turn, at the ball, an opponent is too: the last steps for a kick past it, and the kick.
@@ -45,6 +47,8 @@ std::optional<Action> guardGoal(const Situation& situation);
 std::optional<Action> opponentSetPiece(const Situation& situation);
 /// The own team takes a kick, another player takes it: receives, or stands in the formation.
 std::optional<Action> ownSetPiece(const Situation& situation);
+/// A pass to this player has been announced: to where it will be.
+std::optional<Action> runToPass(const Situation& situation);
 /// Stands in the place of one's role.
 std::optional<Action> support(const Situation& situation);
 

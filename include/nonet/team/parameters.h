@@ -8,6 +8,7 @@
 #include "nonet/team/challenge_parameters.h"
 #include "nonet/team/choice_parameters.h"
 #include "nonet/team/goalie_parameters.h"
+#include "nonet/team/pass_parameters.h"
 #include "nonet/team/place_parameters.h"
 #include "nonet/team/variant_parameters.h"
 
@@ -257,6 +258,7 @@ struct TeamParameters {
   AsideParameters aside;
   DribbleParameters dribble;
   ReceiveParameters receive;
+  PassParameters pass;
   ChoiceParameters choice;
   GoalieParameters goalie;
   PaceParameters pace;
@@ -288,6 +290,7 @@ struct TeamParameters {
     visit.group("aside", self.aside);
     visit.group("dribble", self.dribble);
     visit.group("receive", self.receive);
+    visit.group("pass", self.pass);
     visit.group("choice", self.choice);
     visit.group("goalie", self.goalie);
     visit.group("pace", self.pace);

@@ -1,0 +1,39 @@
+#include "nonet/team/pass.h"
+
+#include "nonet/team/behaviors.h"
+
+#include "team/behaviors/kick_action.h"
+
+namespace nonet::team {
+
+namespace {
+
+bool inPlace(const Situation& s) {
+  return s.motion.askedForKick() && s.motion.kick.inPlace;
+}
+
+bool canPass(const Situation& s) {
+  const PassParameters& p = s.parameters.pass;
+  const BallHandlingParameters& ball = s.parameters.ball;
+  if (!p.use || !ball.kick || !s.play || s.play->use != KickUse::IfFree) return false;
+  if (s.phase() != world::Phase::PlayOn || s.world.ball.v_FB.head<2>().norm() > ball.kickRolling)
+    return false;
+  return s.nearestOpponent >= (inPlace(s) ? ball.kickPress : 1.0) * p.room;
+}
+
+}  // namespace
+
+std::optional<Action> pass(const Situation& s) {
+  if (!canPass(s)) return std::nullopt;
+  const std::optional<Pass> best = bestPass(s);
+  if (!best) return std::nullopt;
+  BallPlay play = playTowards(s, best->p_FTarget, s.play->use);
+  play.kick = best->kick;
+  Action action = kickAction(s, play, inPlace(s) ? "in place" : "line up");
+  std::get<motion::KickTo>(action.motion).stops = true;
+  action.pass = PassAnnouncement{best->receiver, best->p_FTarget, s.world.time + best->untilKick,
+                                 s.world.time + best->untilThere};
+  return action;
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,102 @@
+#include "nonet/team/pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "nonet/math/direction.h"
+#include "nonet/team/ball_choice.h"
+
+#include "team/play_value.h"
+
+namespace nonet::team {
+
+namespace {
+
+constexpr int kRuns = 3;            // places for each receiver: where it stands, and ahead of that
+constexpr double kStopped = 0.3;    // probability that a ball which an opponent stops is ours all the same
+constexpr double kContested = 0.5;  // that the ball is ours when the kick does not come off
+
+bool canReceive(const Situation& s, int unum) {
+  const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
+  return unum != s.world.game.unum && mate.known && !mate.fallen;
+}
+
+bool endsInside(const Situation& s, const Vector2& p_F) {
+  const double margin = s.parameters.pass.margin;
+  return std::abs(p_F.x()) < 0.5 * s.world.field.length - margin &&
+         std::abs(p_F.y()) < 0.5 * s.world.field.width - margin;
+}
+
+bool serves(const motion::KickOption& kick, double distance, const Situation& s) {
+  if (kick.head.room > s.nearestOpponent) return false;
+  // Who kicks straight does it with either foot: motion chooses.
+  if (kick.head.isStraight() && kick.foot != model::Side::Left) return false;
+  if (kick.head.scales) return distance >= kick.head.shortest && distance <= kick.head.longest;
+  const double length = s.parameters.choice.length * kick.head.longest;
+  return std::abs(distance - length) < s.parameters.pass.fit * length;
+}
+
+// Where the pass that motion was asked for last ends, own field frame.
+std::optional<Vector2> presentTarget(const Situation& s) {
+  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
+  if (kick == nullptr || !kick->stops) return std::nullopt;
+  return s.world.self.X_FR * kick->target;
+}
+
+// The receiver may be there before the ball and wait; opponents set off when they see the ball coming.
+double receiverFirst(const Situation& s, const world::PlayerState& mate, const Pass& pass) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const double ours = arrival(mate, pass.p_FTarget, p.ownPace, s.parameters.pace.risingTime) - pass.untilKick;
+  return probabilityFirst(std::max(ours, 0.0), opponentsTime(s, pass.p_FTarget), p.arrivalSpread);
+}
+
+// Zero: it will hardly arrive.
+double valueOf(const Situation& s, const world::PlayerState& mate, const Pass& pass, double left) {
+  const PassParameters& p = s.parameters.pass;
+  const double ours = receiverFirst(s, mate, pass);
+  const Block block = blockOf(s, pass.p_FTarget - s.ball());
+  if (ours < p.ours || block.probability > p.lane) return 0.0;
+  const double comesOff = probabilityFirst(pass.untilKick, left, s.parameters.choice.setupSpread);
+  const double played = (1.0 - block.probability) * valueAt(s, pass.p_FTarget, ours) +
+                        block.probability * valueAt(s, block.p_F, kStopped);
+  return comesOff * played + (1.0 - comesOff) * valueAt(s, s.ball(), kContested);
+}
+
+}  // namespace
+
+std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
+  const PassParameters& p = s.parameters.pass;
+  const ChoiceParameters& choice = s.parameters.choice;
+  const Vector2 goal(0.5 * s.world.field.length, 0.0);
+  const double left = std::max(0.0, opponentsTime(s, s.ball()) - choice.opponentReach / choice.opponentPace);
+  const std::optional<Vector2> present = presentTarget(s);
+  std::optional<Pass> best;
+  double most = dribbleValue(s) + p.better;
+  for (int unum = 2; unum <= world::kTeamSize; ++unum) {
+    if (!canReceive(s, unum)) continue;
+    const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
+    const Vector2 onward = (goal - mate.X_FP.translation).normalized();
+    for (int run = 0; run < kRuns; ++run) {
+      const Vector2 target = mate.X_FP.translation + run * p.runStep * onward;
+      const Vector2 way = target - s.ball();
+      const double distance = way.norm();
+      if (distance < p.least || distance > p.most || !endsInside(s, target)) continue;
+      for (const motion::KickOption& kick : s.motion.kicks) {
+        if (!serves(kick, distance, s)) continue;
+        Pass pass{unum, target, kick.name};
+        pass.untilKick = timeToContact(s, kick.head, directionOf(way) - kick.head.direction);
+        pass.untilThere = pass.untilKick + p.rollTime;
+        pass.value = valueOf(s, mate, pass, left);
+        if (present && (*present - target).norm() < p.same) pass.value += p.keep;
+        if (record != nullptr) record->add(target, pass.value);
+        if (pass.value <= most) continue;
+        most = pass.value;
+        best = pass;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace nonet::team

@@ -1,0 +1,35 @@
+// What an action with the ball is made of: who is first where, what stands in the way, how long a kick takes,
+// what the ball is worth. Shared by the choices of ball_choice.cpp and pass.cpp.
+#pragma once
+
+#include "nonet/motion/skill.h"
+#include "nonet/team/situation.h"
+
+namespace nonet::team {
+
+/// Goals that the ball at p_F (own field frame, m) is worth when it is ours with this probability.
+double valueAt(const Situation& situation, const Vector2& p_F, double ours);
+
+/// s until this player is at p_F, going `pace` m/s; infinite for one that is not known.
+double arrival(const world::PlayerState& player, const Vector2& p_F, double pace, double risingTime);
+
+/// That we need `ours` and they `theirs` seconds, which may be infinite: the probability that we are first.
+double probabilityFirst(double ours, double theirs, double spread);
+
+/// The opponent that most likely stops a ball on its way: where, and with which probability any of them does.
+struct Block {
+  double probability = 0.0;
+  Vector2 p_F = Vector2::Zero();
+};
+
+/// Of the ball on this way from where it lies, m.
+Block blockOf(const Situation& situation, const Vector2& way);
+
+/// s from now until the foot meets the ball in this kick, when the robot must face this direction for it
+/// (rad, own field frame; docs/results.md, contact times).
+double timeToContact(const Situation& situation, const motion::KickHead& kick, double direction);
+
+/// Of running on with the ball.
+double dribbleValue(const Situation& situation);
+
+}  // namespace nonet::team
