@@ -8,7 +8,7 @@ namespace nonet::team {
 
 struct PassParameters {
   bool use = true;
-  double least = 2.5;
+  double least = 3.5;
   double most = 9.0;
   double room = 0.8;
   double fit = 0.15;
@@ -17,7 +17,7 @@ struct PassParameters {
   double margin = 0.7;
   double ours = 0.7;
   double lane = 0.3;
-  double better = 0.01;
+  double better = 0.02;
   double keep = 0.01;
   double same = 1.0;
   double before = 0.3;
