@@ -72,7 +72,7 @@ Assignment RoleAssigner::assign(std::span<const Vector2> players, std::span<cons
         candidate[k] = std::max(rest[k], std::min(rest[k - 1], rank));
       if (candidate < best) {
         best = candidate;
-        lastPlayer_[set] = static_cast<std::int8_t>(player);
+        lastPlayer_[set] = static_cast<std::uint8_t>(player);
       }
     }
     best_[set] = best;

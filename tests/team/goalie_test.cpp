@@ -27,7 +27,7 @@ bool dives(const Vector2& place, const Vector2& speed) {
 
 TEST(Goalie, DivesForAShotBesideIt) {
   for (const double side : {1.0, -1.0}) {
-    const Action action = goalieScene({-12.5, side * 0.7}, {-4.0, 0.0}).decideAs(Role::Goalie);
+    const Action action = goalieScene({-12.8, side * 0.7}, {-4.0, 0.0}).decideAs(Role::Goalie);
     ASSERT_TRUE(std::holds_alternative<motion::PlaySkill>(action.motion));
     EXPECT_EQ(std::get<motion::PlaySkill>(action.motion).side,
               side > 0.0 ? model::Side::Left : model::Side::Right);
@@ -36,8 +36,8 @@ TEST(Goalie, DivesForAShotBesideIt) {
 
 // Nearer balls along the ground are blocked, without a fall; high ones are not.
 TEST(Goalie, BlocksWhatPassesNear) {
-  const auto skill = [](double aside, double height, double lift) {
-    Scene scene = goalieScene({-13.2, aside}, {-4.0, 0.0});
+  const auto skill = [](double aside, double height, double lift, double x = -13.2) {
+    Scene scene = goalieScene({x, aside}, {-4.0, 0.0});
     scene.world.ball.p_FB.z() = height;
     scene.world.ball.v_FB.z() = lift;
     const Action action = scene.decideAs(Role::Goalie);
@@ -47,13 +47,14 @@ TEST(Goalie, BlocksWhatPassesNear) {
   EXPECT_EQ(skill(0.27, world::kBallRestHeight, 0.0), "block");
   EXPECT_EQ(skill(-0.27, world::kBallRestHeight, 0.0), "block");
   EXPECT_EQ(skill(0.6, world::kBallRestHeight, 0.0), "dive");
-  EXPECT_EQ(skill(0.27, 0.4, 2.0), "dive");
+  EXPECT_EQ(skill(0.27, 0.4, 2.0, -13.7), "dive");
+  EXPECT_EQ(skill(0.27, 0.4, 2.0, -12.8), "") << "the body would be past it";
   EXPECT_EQ(skill(0.0, world::kBallRestHeight, 0.0), "") << "comes to it";
   EXPECT_EQ(skill(0.6, 1.0, 3.0), "") << "flies over the goal";
 }
 
 TEST(Goalie, DoesNotThrowItselfAtWhatItHasNotSeen) {
-  Scene scene = goalieScene({-12.5, 0.7}, {-4.0, 0.0});
+  Scene scene = goalieScene({-12.8, 0.7}, {-4.0, 0.0});
   EXPECT_EQ(scene.decideAs(Role::Goalie).reason.behavior, "dive");
   scene.world.ball.lastSeen = scene.world.time - 0.5;
   EXPECT_NE(scene.decideAs(Role::Goalie).reason.behavior, "dive");

@@ -7,11 +7,11 @@ namespace nonet::team {
 
 /// The goalkeeper (goalie.h, behaviors/dive.cpp, behaviors/guard_goal.cpp).
 struct GoalieParameters {
-  double outOfGoal = 0.5;
+  double outOfGoal = 0.9;
   double outShare = 1.0;
   double attackDistance = 2.0;
-  double diveTime = 0.8;
-  double highDiveTime = 0.6;
+  double diveTime = 0.6;
+  double highDiveTime = 0.4;
   double diveReach = 0.12;
   double sideStepSpeed = 0.4;
   double stepDelay = 0.3;

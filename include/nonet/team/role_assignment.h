@@ -33,7 +33,7 @@ class RoleAssigner {
   // the first |set| positions, longest first, then zeros. Sixteen, so that a processor compares two words.
   using Ranks = std::array<std::uint8_t, 16>;
   std::vector<Ranks> best_;              // indexed by the bit set of players
-  std::vector<std::int8_t> lastPlayer_;  // who got the last of these positions
+  std::vector<std::uint8_t> lastPlayer_;  // who got the last of these positions
 };
 
 /// The same cost in O(n^5) bit operations [MacAlpine 2015, section on MMDR]: an edge weighs 2^rank, so one
