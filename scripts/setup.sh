@@ -12,8 +12,10 @@ packages=(
   libopenmpi-dev openmpi-bin libpagmo-dev                # distributed training; CMA-ES to compare ours with
   libgtest-dev libgmock-dev libbenchmark-dev             # tests and benchmarks
   libsexp-dev libdlib-dev                                # what benchmarks compare with
+  libfaketime                                            # nonet soak: a clock that jumps
   libjs-three                                            # the viewer's 3D graphics
   clang clang-format clang-tidy libclang-rt-14-dev       # checks and fuzzing
+  dpkg-dev file                                          # cpack -G DEB
   python3
 )
 

@@ -69,10 +69,17 @@ AgentProcesses::~AgentProcesses() {
 }
 
 void AgentProcesses::start(const std::vector<std::string>& command, const std::string& output) {
+  start(command, output, std::vector<std::string>{});
+}
+
+void AgentProcesses::start(const std::vector<std::string>& command, const std::string& output,
+                           const std::vector<std::string>& variables) {
   const std::vector<char*> arguments = pointersTo(command);
-  std::vector<std::string> variables = {mark_};
-  for (char** variable = environ; *variable != nullptr; ++variable) variables.emplace_back(*variable);
-  const std::vector<char*> environment = pointersTo(variables);
+  // Of two variables with the same name the first counts.
+  std::vector<std::string> all = {mark_};
+  all.insert(all.end(), variables.begin(), variables.end());
+  for (char** variable = environ; *variable != nullptr; ++variable) all.emplace_back(*variable);
+  const std::vector<char*> environment = pointersTo(all);
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid < 0) throw std::runtime_error("cannot start an agent: out of processes or memory");

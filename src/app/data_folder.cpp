@@ -44,6 +44,12 @@ std::string findData(const std::string& executable, const std::string& sourceFol
       executable));
 }
 
+std::string findThree(const std::string& executable, const std::string& systemFolder) {
+  const fs::path installed = fs::path(executable).parent_path().parent_path() / "share/nonet/three";
+  std::error_code ignored;
+  return fs::is_directory(installed, ignored) ? installed.string() : systemFolder;
+}
+
 std::string dataFolder(const std::string& given) {
   if (!given.empty()) return checked(given, "--data");
   const char* set = std::getenv("NONET_DATA");  // NOLINT(concurrency-mt-unsafe)

@@ -1,10 +1,15 @@
 // The program as it is installed: elsewhere, in a folder with blanks, read-only, run by somebody else.
 #include <fstream>
 #include <regex>
+#include <set>
+#include <sstream>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "nonet/app/data_folder.h"
 
 #include "app/program.h"
 
@@ -67,6 +72,59 @@ TEST_F(Installed, ItsScriptsStartAndStopAgents) {
   EXPECT_EQ(started, 0) << output;
   EXPECT_TRUE(server.says("number 2 of team Ours")) << server.output();
   EXPECT_THAT(asNobody(scripts + "kill.sh'").second, HasSubstr("stopped 2 agents"));
+}
+
+std::set<std::string> linesOf(const std::string& text) {
+  std::set<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.insert(line);
+  return lines;
+}
+
+// What is packed is what would be installed, with its rights; and the Debian package asks for what the
+// program is linked with.
+TEST_F(Installed, IsWhatThePackagesHold) {
+  const std::string config = fs::path(NONET_BINARY).parent_path() / "CPackConfig.cmake";
+  const std::string list = " && find . -type f -perm -100 -printf 'x %P\\n' -o -type f -printf '- %P\\n'";
+  const auto [found, installed] = shell(folder, "cd '" + prefix + "'" + list);
+  ASSERT_EQ(found, 0) << installed;
+  EXPECT_THAT(installed, HasSubstr("x share/nonet/scripts/start.sh\n"));
+  EXPECT_THAT(installed, HasSubstr("- share/nonet/three/build/three.module.js\n"));
+  for (const auto& [kind, ending, unpack] :
+       {std::tuple{"TGZ", ".tar.gz", "tar xz --strip-components=1 -f ../package"},
+        std::tuple{"DEB", ".deb", "dpkg-deb -x ../package ."}}) {
+    const std::string out = folder.file(kind);
+    const auto [packed, output] =
+        shell(folder, std::string("cpack -G ") + kind + " --config '" + config + "' -B '" + out +
+                          "' && mv '" + out + "'/*" + ending + " '" + out + "/package'");
+    ASSERT_EQ(packed, 0) << output;
+    const std::string inside = kind == std::string("DEB") ? "/usr" : "";
+    const auto [read, held] = shell(folder, "mkdir '" + out + "/content' && cd '" + out + "/content' && " +
+                                                unpack + " && cd ." + inside + list);
+    ASSERT_EQ(read, 0) << held;
+    EXPECT_EQ(linesOf(held), linesOf(installed)) << kind;
+  }
+  const auto [linked, libraries] = shell(folder, std::string("ldd '") + NONET_BINARY + "'");
+  const auto [told, depends] = shell(folder, "dpkg-deb -f '" + folder.file("DEB/package") + "' Depends");
+  EXPECT_EQ(told, 0) << depends;
+  for (const auto& [library, package] :
+       {std::pair{"libode.so.8", "libode8"}, std::pair{"libzstd.so.1", "libzstd1"},
+        std::pair{"libc.so.6", "libc6"}}) {
+    EXPECT_THAT(libraries, HasSubstr(library));
+    EXPECT_THAT(depends, HasSubstr(package));
+  }
+}
+
+// Without Debian's libjs-three too: what the page loads is there, and found first.
+TEST_F(Installed, BringsWhatTheViewersPageLoads) {
+  const std::string three = findThree(prefix + "/bin/nonet", "/of/the/system");
+  EXPECT_EQ(three, prefix + "/share/nonet/three");
+  EXPECT_EQ(findThree(NONET_BINARY, "/of/the/system"), "/of/the/system");
+  const auto [code, loaded] = shell(folder, "grep -oh \"from '/three/[^']*\" '" NONET_SOURCE_DIR
+                                            "'/src/app/view/web/*.js | sed 's#^from ./three##' | sort -u");
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(loaded, HasSubstr("/build/three.module.js\n"));
+  for (const std::string& path : linesOf(loaded)) EXPECT_TRUE(fs::exists(three + path)) << path;
 }
 
 TEST(Version, NamesTheCommit) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "nonet/app/agent_processes.h"
+#include "nonet/app/soak/false_clock.h"
 #include "nonet/app/soak/match_soak.h"
 #include "nonet/app/soak/memory_watch.h"
 
@@ -107,6 +109,37 @@ TEST(Soak, WhoIsHarmedComesBack) {
   for (const std::string kind : {"kill", "cut", "server"})
     EXPECT_EQ(result["faults"][kind]["survived"], 1) << kind;
 }
+
+/// Seconds since 1970, as a program reads them that is started with these variables.
+long wallClock(const TestFolder& folder, const std::vector<std::string>& variables) {
+  AgentProcesses processes;
+  processes.start({"/bin/date", "+%s"}, folder.file("date.txt"), variables);
+  processes.stop(10.0);
+  long time = 0;
+  std::ifstream(folder.file("date.txt")) >> time;
+  return time;
+}
+
+TEST(Soak, TheFalseClockJumps) {
+  const TestFolder folder("nonet_soak_clock");
+  const FalseClock clock(folder.file("clock"));
+  EXPECT_NEAR(wallClock(folder, clock.variables()), wallClock(folder, {}), 5);
+  clock.jump(3600);
+  EXPECT_NEAR(wallClock(folder, clock.variables()), wallClock(folder, {}) + 3600, 5);
+  clock.jump(-3600);
+  EXPECT_NEAR(wallClock(folder, clock.variables()), wallClock(folder, {}) - 3600, 5);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they want to be loaded first
+TEST(Soak, AJumpOfTheClockIsNotNoticed) {
+  const TestFolder folder("nonet_soak_jump");
+  Program program({"soak", "--faults", "--times", "1", "--players", "2", "--pause", "0.2", "--kinds", "clock",
+                   "--out", folder.file("out")},
+                  folder.file("soak.txt"));
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  EXPECT_EQ(jsonIn(folder.file("out/faults.json"))["faults"]["clock"]["survived"], 1);
+}
+#endif
 
 TEST(Soak, RandomCommandsAreWatched) {
   const TestFolder folder("nonet_soak_effectors");

@@ -28,6 +28,9 @@ class AgentProcesses {
   /// Starts a program; what it says goes into `output`. It dies with the thread that starts it, at the latest
   /// with this process. Throws std::runtime_error.
   void start(const std::vector<std::string>& command, const std::string& output);
+  /// The same with `variables`, each NAME=value, added to its environment.
+  void start(const std::vector<std::string>& command, const std::string& output,
+             const std::vector<std::string>& variables);
   /// The same with a line for the shell. Whatever that starts in turn, in the background too, is stopped by
   /// stop(): it is known by a mark in its environment.
   void startShell(const std::string& line, const std::string& output);

@@ -1,4 +1,4 @@
-// Where the program finds params/ and skills/.
+// Where the program finds params/ and skills/, and what its pages need.
 #pragma once
 
 #include <string>
@@ -14,6 +14,10 @@ std::string dataFolder(const std::string& given = {});
 /// archive) or in share/nonet (an installation); otherwise `sourceFolder` if it does. Throws
 /// std::runtime_error.
 std::string findData(const std::string& executable, const std::string& sourceFolder);
+
+/// The folder of three.js, which the viewer's page needs: that of an installation, share/nonet/three beside
+/// the folder of `executable`, otherwise `systemFolder`.
+std::string findThree(const std::string& executable, const std::string& systemFolder);
 
 /// Path of the running executable.
 std::string executablePath();

@@ -16,6 +16,7 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/agent_processes.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/soak/false_clock.h"
 #include "nonet/app/soak/fault_proxy.h"
 #include "nonet/app/soak/monitor_watch.h"
 #include "nonet/app/stop_signal.h"
@@ -34,6 +35,7 @@ constexpr double kStop = 5.0;            // s, SIGSTOP
 constexpr double kStarvation = 0.2;      // s without processor
 constexpr double kSpoiled = 3.0;         // s of delayed or repeated messages
 constexpr double kDelay = 0.2;           // s
+constexpr long kClockJump = 3600;        // s, ahead and then back
 constexpr double kToBegin = 60.0;        // s until all are in play at first
 
 /// One player of ours. The last of each team plays through a proxy.
@@ -52,6 +54,8 @@ class FaultSoak {
   FaultSoak(const FaultSoakSettings& settings, Console& console)
       : settings_(settings), console_(console), random_(settings.seed) {
     fs::create_directories(settings.out);
+    const auto kinds = plannedKinds();
+    if (std::find(kinds.begin(), kinds.end(), "clock") != kinds.end()) clock_.emplace(file("clock"));
     startServer();
     watch_.emplace(monitorPort_);
     for (int unum = 1; unum <= settings.players; ++unum) {
@@ -63,6 +67,12 @@ class FaultSoak {
     }
     for (Fellow& fellow : fellows_) start(fellow);
   }
+  ~FaultSoak() {
+    processes_.stop(0.0);
+    for (const auto& process : processes_.processes()) FalseClock::clean(process.pid);
+  }
+  FaultSoak(const FaultSoak&) = delete;
+  FaultSoak& operator=(const FaultSoak&) = delete;
 
   Json run() {
     const StopSignal stopSignal;
@@ -110,7 +120,7 @@ class FaultSoak {
     const auto port = [](int known) { return std::to_string(known); };
     command.insert(command.end(), {"--port", port(agentPort_), "--monitor-port", port(monitorPort_)});
     server_ = processes_.processes().size();
-    processes_.start(command, output);
+    processes_.start(command, output, clockVariables());
     if (agentPort_ != 0) return;
     // It says which ports it has found.
     for (int i = 0; i < 200 && agentPort_ == 0; ++i) {
@@ -142,7 +152,13 @@ class FaultSoak {
         {executablePath(), "play", "--reconnect", "--wait", "60", "--port", std::to_string(port), "--team",
          fellow.player.first == TeamSide::Left ? "Left" : "Right", "--unum", std::to_string(unum), "--type",
          std::to_string(agent::usualRobotType(unum)), "--record", log},
-        file(fmt::format("{}-{}.txt", name, ++starts_)));
+        file(fmt::format("{}-{}.txt", name, ++starts_)),
+        fellow.proxy ? clockVariables() : std::vector<std::string>{});
+  }
+
+  /// The server and those behind a proxy have a wall clock of their own, if it is to jump.
+  std::vector<std::string> clockVariables() const {
+    return clock_ ? clock_->variables() : std::vector<std::string>{};
   }
 
   void signal(std::size_t process, int number) { ::kill(processes_.processes()[process].pid, number); }
@@ -188,9 +204,13 @@ class FaultSoak {
 
   // -- faults
 
+  std::vector<std::string> plannedKinds() const {
+    return settings_.kinds.empty() ? faultKinds() : settings_.kinds;
+  }
+
   std::vector<std::string> plan() {
     std::vector<std::string> all;
-    for (const std::string& kind : settings_.kinds.empty() ? faultKinds() : settings_.kinds)
+    for (const std::string& kind : plannedKinds())
       all.insert(all.end(), static_cast<std::size_t>(settings_.times), kind);
     for (std::size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[random_.below(i)]);
     return all;
@@ -204,6 +224,10 @@ class FaultSoak {
     return *able[random_.below(able.size())];
   }
 
+  static bool hitsAll(const std::string& kind) {
+    return kind == "server" || kind == "starve" || kind == "clock";
+  }
+
   void harm(const std::string& kind) {
     using Action = void (FaultSoak::*)(Fellow&, std::string&);
     struct Kind {
@@ -215,12 +239,12 @@ class FaultSoak {
         {"starve", {&FaultSoak::starve, false}},       {"cut", {&FaultSoak::cut, true}},
         {"half-frame", {&FaultSoak::cutWithin, true}}, {"delay", {&FaultSoak::delay, true}},
         {"repeat", {&FaultSoak::repeat, true}},        {"server", {&FaultSoak::restartServer, false}},
-        {"full-disk", {&FaultSoak::fillDisk, false}},  {"lost-folder", {&FaultSoak::loseFolder, true}}};
+        {"full-disk", {&FaultSoak::fillDisk, false}},  {"lost-folder", {&FaultSoak::loseFolder, true}},
+        {"clock", {&FaultSoak::jumpClock, true}}};
     const Kind& what = kKinds.at(kind);
     Fellow& fellow = choose(what.behindProxy);
     Tally& tally = tallies_[kind];
-    console_.say(fmt::format("{} {}: {}", kind, ++tally.times,
-                             kind == "server" || kind == "starve" ? "all" : fellow.name()));
+    console_.say(fmt::format("{} {}: {}", kind, ++tally.times, hitsAll(kind) ? "all" : fellow.name()));
     std::string trouble;
     watch_->longestSilence();
     const std::size_t connectedTo = server_;
@@ -231,7 +255,7 @@ class FaultSoak {
     const double took = std::chrono::duration<double>(Clock::now() - begin).count();
     if (!back) {
       trouble += (trouble.empty() ? "" : "; ") + missing() +
-                 fmt::format(" not in play after {:.0f} s", settings_.patience);
+                 fmt::format(" not in play after {:.0f} s", settings_.patience) + revive();
       awaitAll(kToBegin);
     }
     const double silence = watch_->longestSilence();
@@ -244,6 +268,19 @@ class FaultSoak {
       tally.troubles.push_back(trouble);
       console_.say("  " + trouble);
     }
+  }
+
+  /// Whoever has ended starts anew, so that the faults that follow are not blamed for it. Says who.
+  std::string revive() {
+    processes_.poll();
+    std::string ended;
+    for (Fellow& fellow : fellows_) {
+      const AgentProcesses::Process& process = processes_.processes()[fellow.process];
+      if (process.running) continue;
+      ended += "; " + fellow.name() + " has ended: " + endingOf(process);
+      start(fellow);
+    }
+    return ended;
   }
 
   /// The robot of one whose connection has ended goes within a second, be it that the next one comes at once.
@@ -321,9 +358,18 @@ class FaultSoak {
     cut(fellow, trouble);
   }
 
+  /// The wall clock of the server and of two players: an hour ahead, then back, then true again.
+  void jumpClock(Fellow& /*fellow*/, std::string& trouble) {
+    for (const long offset : {kClockJump, -kClockJump, 0L}) {
+      clock_->jump(offset);
+      pause(2.0 * FalseClock::kTillSeen, nullptr, &trouble);
+    }
+  }
+
   FaultSoakSettings settings_;
   Console& console_;
   Random random_;
+  std::optional<FalseClock> clock_;
   int agentPort_ = 0;
   int monitorPort_ = 0;
   int servers_ = 0;
@@ -339,8 +385,8 @@ class FaultSoak {
 }  // namespace
 
 std::vector<std::string> faultKinds() {
-  return {"kill",  "stop",   "starve", "cut",       "half-frame",
-          "delay", "repeat", "server", "full-disk", "lost-folder"};
+  return {"kill",   "stop",   "starve",    "cut",         "half-frame", "delay",
+          "repeat", "server", "full-disk", "lost-folder", "clock"};
 }
 
 Json soakFaults(const FaultSoakSettings& settings, Console& console) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "nonet/app/commands.h"
+#include "nonet/app/data_folder.h"
 #include "nonet/app/view/http_server.h"
 #include "nonet/app/view/live_monitor.h"
 #include "nonet/app/view/trace_folder.h"
@@ -44,17 +45,18 @@ HttpResponse ownFile(std::string_view path) {
   return {404, "text/plain", "no such page\n"};
 }
 
-// three.js as Debian installs it; only names that cannot climb out of its folder.
-HttpResponse threeFile(std::string_view path) {
+// Only names that cannot climb out of the folder of three.js.
+HttpResponse threeFile(const std::string& folder, std::string_view path) {
   const bool harmless = path.find("..") == std::string_view::npos && path.ends_with(".js");
-  std::ifstream file(harmless ? std::string(NONET_THREE_DIR) + std::string(path) : "", std::ios::binary);
+  std::ifstream file(harmless ? folder + std::string(path) : "", std::ios::binary);
   if (!file) return {404, "text/plain", "no such file of three.js\n"};
   return {200, "text/javascript; charset=utf-8", {std::istreambuf_iterator<char>(file), {}}};
 }
 
 class Viewer {
  public:
-  explicit Viewer(const ViewArguments& arguments) : track_(kLiveStep), source_(arguments.source) {
+  Viewer(const ViewArguments& arguments, const std::string& three)
+      : track_(kLiveStep), source_(arguments.source), three_(three) {
     if (fs::exists(source_)) {
       track_ = readMonitorLog(source_);
       fmt::print("view: {}, {:.0f} s, {} events\n", source_,
@@ -94,24 +96,26 @@ class Viewer {
       return {200, "application/json", traces_ ? traces_->cycles(request.number("slot")) : "[]"};
     }
     if (request.path == "/shapes") return {200, "application/json", robotShapes().dump()};
-    if (request.path.starts_with(kThree)) return threeFile(request.path.substr(kThree.size() - 1));
+    if (request.path.starts_with(kThree)) return threeFile(three_, request.path.substr(kThree.size() - 1));
     return ownFile(request.path);
   }
 
   asio::io_context io_;
   Track track_;
   std::string source_;
+  std::string three_;  // folder
   std::optional<TraceFolder> traces_;
   std::optional<LiveMonitor> live_;
   std::optional<HttpServer> server_;
 };
 
 int runView(const ViewArguments& arguments) {
-  if (!fs::exists(std::string(NONET_THREE_DIR) + "/build/three.module.js")) {
-    throw std::runtime_error(fmt::format(
-        "three.js is not in {}: scripts/setup.sh installs it (Debian's libjs-three)", NONET_THREE_DIR));
+  const std::string three = findThree(executablePath(), NONET_THREE_DIR);
+  if (!fs::exists(three + "/build/three.module.js")) {
+    throw std::runtime_error(
+        fmt::format("three.js is not in {}: install Debian's libjs-three (scripts/setup.sh does)", three));
   }
-  Viewer(arguments).run();
+  Viewer(arguments, three).run();
   return 0;
 }
 
