@@ -32,7 +32,7 @@ class RoleAssigner {
   // Ranks (distances in increasing order, equal ones the same, from 1) of the ways of the players of a set to
   // the first |set| positions, longest first, then zeros. Sixteen, so that a processor compares two words.
   using Ranks = std::array<std::uint8_t, 16>;
-  std::vector<Ranks> best_;              // indexed by the bit set of players
+  std::vector<Ranks> best_;               // indexed by the bit set of players
   std::vector<std::uint8_t> lastPlayer_;  // who got the last of these positions
 };
 
