@@ -130,7 +130,7 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   BallChoice best{false, s.p_FTarget, dribbleValue(s), {}};
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.p_FTarget, best.value);
-  const double left = std::max(0.0, opponentsTime(s, s.ball()) - p.opponentReach / p.opponentPace);
+  const double left = timeLeftAtBall(s);
   const double contested = valueAt(s, s.ball(), 0.5);
   const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
   weighKicks(s, {directionOf(toGoal), -kDirections, kDirections}, record, best,

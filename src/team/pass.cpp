@@ -67,9 +67,8 @@ double valueOf(const Situation& s, const world::PlayerState& mate, const Pass& p
 
 std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
   const PassParameters& p = s.parameters.pass;
-  const ChoiceParameters& choice = s.parameters.choice;
   const Vector2 goal(0.5 * s.world.field.length, 0.0);
-  const double left = std::max(0.0, opponentsTime(s, s.ball()) - choice.opponentReach / choice.opponentPace);
+  const double left = timeLeftAtBall(s);
   const std::optional<Vector2> present = presentTarget(s);
   std::optional<Pass> best;
   double most = dribbleValue(s) + p.better;

@@ -69,6 +69,11 @@ double timeToContact(const Situation& s, const motion::KickHead& kick, double di
          (kick.fromWalk ? p.setupWalk : p.setupStand);
 }
 
+double timeLeftAtBall(const Situation& s) {
+  const ChoiceParameters& p = s.parameters.choice;
+  return std::max(0.0, opponentsTime(s, s.ball()) - p.opponentReach / p.opponentPace);
+}
+
 double dribbleValue(const Situation& s) {
   const ChoiceParameters& p = s.parameters.choice;
   const Vector2 way = s.p_FTarget - s.ball();

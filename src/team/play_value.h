@@ -29,6 +29,9 @@ Block blockOf(const Situation& situation, const Vector2& way);
 /// (rad, own field frame; docs/results.md, contact times).
 double timeToContact(const Situation& situation, const motion::KickHead& kick, double direction);
 
+/// s until an opponent plays the ball where it lies; infinite if none is known.
+double timeLeftAtBall(const Situation& situation);
+
 /// Of running on with the ball.
 double dribbleValue(const Situation& situation);
 
