@@ -13,9 +13,10 @@ constexpr double kOneFoul = 1.0;      // s between records of one foul, at most
 constexpr double kLongestStep = 0.5;  // s without a frame: nothing is known of the time between
 constexpr double kFallenBelow = 0.5;  // of up; between the two a robot keeps the stance it had
 constexpr double kStandingAbove = 0.9;
-constexpr double kPaceUpright = 0.7;   // lowest up in a stretch whose speed counts
-constexpr double kFastestRobot = 4.0;  // m/s: who is faster was put there
-constexpr double kStepTime = 0.5;      // s: sway is shorter than that
+constexpr double kPaceUpright = 0.7;    // lowest up in a stretch whose speed counts
+constexpr double kFastestRobot = 4.0;   // m/s: who is faster was put there
+constexpr double kStepTime = 0.5;       // s: sway is shorter than that
+constexpr double kDeflectedTime = 3.0;  // s
 constexpr double kTiny = 1e-3;
 
 int cell(double value, double size, int count) {
@@ -82,19 +83,33 @@ void MatchStatistics::newGoals(const Frame& frame) {
     const auto i = static_cast<std::size_t>(team);
     for (; score_[i] < frame.score[i]; ++score_[i]) {
       GoalStatistics goal{frame.time, team, 0, false};
-      if (touch_) {
-        goal.scorer = touch_->unum;
-        goal.own = touch_->team != team;
-        if (!goal.own) ++player(team, goal.scorer).goals;
-        closeTouch(goal.own ? "own goal" : "goal", frame.p_WBall.head<2>(), -1, 0);
-      } else {
-        ++teamAt(team).shots;
-        ++teamAt(team).shotsOnTarget;
-      }
+      scored(team, goal, frame);
       goals_.push_back(goal);
     }
     score_[i] = frame.score[i];  // a trainer may take goals back
   }
+}
+
+// The ball's way ends in the goal: of whom?
+void MatchStatistics::scored(TeamIndex team, GoalStatistics& goal, const Frame& frame) {
+  const bool deflected = touch_ && touch_->team != team && !touch_->isKick() && deflected_ &&
+                         deflected_->team == team && frame.time - deflected_->time < kDeflectedTime;
+  if (deflected) {
+    KickStatistics& kick = teamAt(team).kicks[deflected_->record];
+    if (kick.outcome == "saved") --teamAt(1 - team).saves;
+    kick.outcome = "goal";
+    goal.scorer = deflected_->unum;
+    touch_.reset();
+  } else if (touch_) {
+    goal.scorer = touch_->unum;
+    goal.own = touch_->team != team;
+    closeTouch(goal.own ? "own goal" : "goal", frame.p_WBall.head<2>(), -1, 0);
+  } else {
+    ++teamAt(team).shots;
+    ++teamAt(team).shotsOnTarget;
+  }
+  deflected_.reset();
+  if (goal.scorer != 0 && !goal.own) ++player(team, goal.scorer).goals;
 }
 
 // Set pieces are timed by their modes; a ball that leaves play ends the way of the last touch.

@@ -41,6 +41,10 @@ const FrameRobot* nearest(const Frame& frame, const Vector2& p_W, double& distan
 
 }  // namespace
 
+bool MatchStatistics::Touch::isKick() const {
+  return speed >= kKickSpeed && speed - before >= kKickGain;
+}
+
 void MatchStatistics::sampleBall(const Frame& frame, double step) {
   const Vector2 p_W = frame.p_WBall.head<2>();
   const Vector2 velocity = (p_W - p_WBall_) / step;
@@ -123,7 +127,7 @@ void MatchStatistics::closeTouch(const std::string& outcome, const Vector2& p_WE
   const bool goal = outcome == "goal";
   const bool mate = nextTeam == touch.team && nextUnum != touch.unum;
   const bool self = nextTeam == touch.team && nextUnum == touch.unum;
-  const bool kick = touch.speed >= kKickSpeed && touch.speed - touch.before >= kKickGain;
+  const bool kick = touch.isKick();
   const bool shot = goal || (kick && isShot(touch, kShotMargin));
   const bool onTarget = goal || (kick && isShot(touch, 0.0));
   const bool saved = onTarget && nextTeam >= 0 && nextTeam != touch.team && nextUnum == 1;
@@ -150,6 +154,9 @@ void MatchStatistics::closeTouch(const std::string& outcome, const Vector2& p_WE
   record.setPiece = touch.setPiece;
   record.name = touch.kick;
   record.outcome = !outcome.empty() ? outcome : saved ? "saved" : self ? "self" : mate ? "mate" : "opponent";
+  if (onTarget && nextTeam == 1 - touch.team) {
+    deflected_ = Deflected{touch.team, touch.unum, sampleTime_.value_or(0.0), team.kicks.size()};
+  }
   team.kicks.push_back(record);
 }
 

@@ -253,6 +253,41 @@ TEST_P(Statistics, TheOtherWayAfterSidesWereChanged) {
   EXPECT_EQ(s.statistics.thirds()[2], 0.0);
 }
 
+// Rolls against the goalkeeper at x = 14.2 and on with 1.5 m/s into the goal, or not.
+void deflect(Script& s) {
+  shoot(s, 0, 6.0, 0.4);
+  while (s.frame.p_WBall.x() < 14.2) s.run(0.2);
+  s.robot(1, 1, s.frame.p_WBall.x(), s.frame.p_WBall.y() + 0.1);
+  s.velocity = Vector2(1.5, 0.5);
+  s.run(0.6);
+}
+
+TEST_P(Statistics, AShotThatTheGoalkeeperDeflectsIntoTheGoalIsTheShootersGoal) {
+  deflect(s);
+  s.frame.score = {1, 0};
+  s.mode(PlayMode::GoalLeft);
+  s.run(1.0);
+  ASSERT_EQ(s.statistics.goals().size(), 1U);
+  EXPECT_FALSE(s.statistics.goals()[0].own);
+  EXPECT_EQ(s.statistics.goals()[0].scorer, 9);
+  EXPECT_EQ(s.statistics.team(0).players.at(9).goals, 1);
+  EXPECT_EQ(s.statistics.team(0).kicks.at(0).outcome, "goal");
+  EXPECT_EQ(s.statistics.team(1).saves, 0);
+}
+
+TEST_P(Statistics, ABallThatIsPushedIntoTheOwnGoalLongAfterAShotIsAnOwnGoal) {
+  deflect(s);
+  s.velocity = Vector2::Zero();
+  s.run(4.0);
+  s.velocity = Vector2(0.8, 0.0);
+  s.run(0.4);
+  s.frame.score = {1, 0};
+  s.mode(PlayMode::GoalLeft);
+  s.run(1.0);
+  EXPECT_TRUE(s.statistics.goals().at(0).own);
+  EXPECT_EQ(s.statistics.team(1).saves, 1);
+}
+
 TEST_P(Statistics, AnOwnGoal) {
   shoot(s, 1, 6.0, 0.0);  // team 1 defends the right goal
   s.robot(0, 1, -14.5, 0.0);

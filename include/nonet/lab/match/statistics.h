@@ -10,7 +10,10 @@
 //              Every goal is a shot on target
 //   pass       in play, the ball goes 2 m or more from a player's touch to the next touch of another player,
 //              or out, and was no shot and no set piece; completed: that player is a mate
-//   save       the goalkeeper (number 1) is the next to touch a shot on target
+//   goal       of whom the ball came last; of the shooter if it was a shot on target that the other team
+//   touched
+//              less than 3 s before without kicking it: deflected, no own goal
+//   save       the goalkeeper (number 1) is the next to touch a shot on target, and it does not become a goal
 //   possession share of the time in play in which a team was the last to touch the ball
 //   duel       robots of both teams on their feet within 0.7 m of the ball for 0.5 s or more; won by the team
 //              that is nearer to the ball when the other one is 1 m away
@@ -149,6 +152,15 @@ class MatchStatistics {
     bool setPiece = false;
     bool swapped = false;
     std::string kick;  // name
+
+    bool isKick() const;
+  };
+  // A shot on target that the other team has touched, until it is sure that it does not go in all the same.
+  struct Deflected {
+    TeamIndex team = 0;
+    int unum = 0;
+    double time = 0.0;       // of the other team's touch, s
+    std::size_t record = 0;  // in the kicks of its team
   };
 
   void newMode(const Frame& frame);
@@ -164,6 +176,7 @@ class MatchStatistics {
   /// The ball's way after the last touch is over: the next touch, a goal, out, or the end.
   void closeTouch(const std::string& outcome, const Vector2& p_WEnd, TeamIndex nextTeam, int nextUnum);
   bool isShot(const Touch& touch, double margin) const;
+  void scored(TeamIndex team, GoalStatistics& goal, const Frame& frame);
   PlayerStatistics& player(TeamIndex team, int unum);
   TeamStatistics& teamAt(TeamIndex index) { return teams_[static_cast<std::size_t>(index)]; }
   nlohmann::ordered_json teamJson(TeamIndex index) const;
@@ -192,6 +205,7 @@ class MatchStatistics {
   std::optional<Vector2> velocity_;    // of the ball, before sampleTime_
   std::map<std::pair<TeamIndex, int>, Track> tracks_;
   std::optional<Touch> touch_;  // the last one, while its ball is on the way
+  std::optional<Deflected> deflected_;
   std::optional<double> duelSince_;
 };
 
