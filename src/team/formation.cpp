@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nonet/math/direction.h"
+#include "nonet/team/own_area.h"
 
 namespace nonet::team {
 
@@ -27,17 +28,12 @@ struct PlaceRules {
   bool allows(int index, const Vector2& place) const {
     const Role role = static_cast<Role>(index);
     const bool back = role == Role::BackLeft || role == Role::BackRight;
-    if (role != Role::BackLeft && inOwnArea(place, parameters.areaMargin)) return false;
-    const bool atOwnGoal = role == Role::BackRight && inOwnArea(formation.positions[0], 0.0);
+    if (role != Role::BackLeft && inOwnArea(field, place, parameters.areaMargin)) return false;
+    const bool atOwnGoal = role == Role::BackRight && inOwnArea(field, formation.positions[0]);
     if (backsBehindBall && back && !atOwnGoal && beyondBall(place)) return false;
     for (int j = 0; j < index; ++j)
       if ((place - formation.positions[j]).norm() < parameters.apart) return false;
     return true;
-  }
-
-  bool inOwnArea(const Vector2& place, double margin) const {
-    return place.x() < -0.5 * field.length + field.areaLength + margin &&
-           std::abs(place.y()) < 0.5 * field.areaWidth + margin;
   }
 
   bool beyondBall(const Vector2& place) const {

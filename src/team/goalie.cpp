@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nonet/math/direction.h"
+#include "nonet/team/own_area.h"
 #include "nonet/world/ball_law.h"
 
 namespace nonet::team {
@@ -22,9 +23,7 @@ world::BallMotion inFrame(const Pose2& X_RF, const world::BallMotion& ball) {
 
 bool mayGoTo(const Vector2& p_F, const Situation& s) {
   const GoalieParameters& p = s.parameters.goalie;
-  const world::FieldGeometry& field = s.world.field;
-  return !p.stayInArea || (p_F.x() < -0.5 * field.length + field.areaLength - p.areaMargin &&
-                           std::abs(p_F.y()) < 0.5 * field.areaWidth - p.areaMargin);
+  return !p.stayInArea || inOwnArea(s.world.field, p_F, -p.areaMargin);
 }
 
 }  // namespace

@@ -1,9 +1,21 @@
 #include "nonet/team/behaviors.h"
 #include "nonet/team/navigation.h"
+#include "nonet/team/own_area.h"
 
 #include "team/behaviors/take_place.h"
 
 namespace nonet::team {
+
+namespace {
+
+// The goalie, the nearer back and the one on the ball are the three who may be in the own penalty area. While
+// roles change hands the back waits for its predecessor to leave.
+bool mayEnterOwnArea(const Situation& s) {
+  if (s.role == Role::Goalie || s.role == Role::OnBall) return true;
+  return s.role == Role::BackLeft && matesInOwnArea(s.world) <= kMostInOwnArea - 1;
+}
+
+}  // namespace
 
 motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace) {
   Caution caution;
@@ -11,7 +23,10 @@ motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace) {
   caution.ball = s.parameters.avoidDistance;
   caution.onBall = s.goalieClaims ? 1 : s.onBall;
   caution.onBallRoom = s.parameters.onBallRoom;
-  const Pose2 pose(p_FPlace, headingTo(s.world, s.ball()));
+  const Vector2 place = mayEnterOwnArea(s) ? p_FPlace
+                                           : aroundOwnArea(s.world.field, s.world.self.X_FR.translation,
+                                                           p_FPlace, s.parameters.formation.areaMargin);
+  const Pose2 pose(place, headingTo(s.world, s.ball()));
   return walkTo(s.world, s.parameters.navigation, pose, caution);
 }
 
