@@ -23,14 +23,24 @@ double nearestOpponent(const world::WorldState& world) {
   return nearest;
 }
 
-Formation placesFor(const world::WorldState& world, const TeamParameters& parameters) {
-  FormationParameters formation = parameters.formation;
-  if (world::isOpponentSetPiece(world.game.phase)) {
+Formation placesFor(const Situation& s) {
+  const world::WorldState& world = s.world;
+  FormationParameters parameters = s.parameters.formation;
+  if (world::isOpponentSetPiece(s.phase())) {
     // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
-    formation.stopperBehind =
-        std::max(formation.stopperBehind, parameters.clearOfOpponentKick + formation.apart);
+    parameters.stopperBehind =
+        std::max(parameters.stopperBehind, s.parameters.clearOfOpponentKick + parameters.apart);
   }
-  return formationFor(world.ball.p_FB.head<2>(), kFieldRoles, world.field, formation, parameters.variant);
+  Formation places = formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant);
+  if (!s.setPlay) return places;
+  // The stopper is the receiver of the own set piece, so whoever is next to that place is the stopper.
+  places.positions[static_cast<std::size_t>(Role::Stopper)] = s.setPlay->p_FReceiver;
+  if (s.phase() != world::Phase::OwnKickOff) return places;
+  for (int i = 1; i < places.count; ++i) {
+    double& x = places.positions[static_cast<std::size_t>(i)].x();
+    x = std::min(x, -s.parameters.setPlay.kickOffLine);
+  }
+  return places;
 }
 
 // Straight away from the own goal.
@@ -115,12 +125,12 @@ Situation assess(const world::WorldState& world, const TeamParameters& parameter
     s.timeToBall[unum] =
         timeToBall({mate.X_FP, mate.headingKnown, mate.fallen}, s.forecast, s.p_FTarget, parameters.pace);
   }
-  s.formation = placesFor(world, parameters);
   const world::RadioReport& goalie = world.radio[1];
   s.goalieClaims = world.time - goalie.time < parameters.agreement.claimAge && goalie.message.timeToBall &&
                    !goalie.message.fallen;
   if (world::isOwnSetPiece(s.phase()))
     s.setPlay = setPlayFor(s.phase(), s.ball(), world.field, parameters.setPlay);
+  s.formation = placesFor(s);
   return s;
 }
 

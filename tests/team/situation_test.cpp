@@ -65,5 +65,23 @@ TEST(SituationTracker, TellsWhatWasWeighedOnlyWhenAsked) {
   }
 }
 
+// Roles are given by the places that are taken: else the one who stands ready leaves and another must come.
+TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
+  for (const world::Phase phase :
+       {world::Phase::OwnKickOff, world::Phase::OwnKickIn, world::Phase::OwnGoalKick}) {
+    Scene scene;
+    scene.world.game.phase = phase;
+    scene.putBall(phase == world::Phase::OwnGoalKick ? Vector2(-14.0, 1.0)
+                  : phase == world::Phase::OwnKickIn ? Vector2(3.0, 10.0)
+                                                     : Vector2(0.0, 0.0));
+    const Situation s = scene.situation(Role::Stopper);
+    ASSERT_TRUE(s.setPlay);
+    EXPECT_LT((s.formation.positions[1] - s.setPlay->p_FReceiver).norm(), 0.5);
+    for (int i = 1; i < s.formation.count && phase == world::Phase::OwnKickOff; ++i)
+      EXPECT_LE(s.formation.positions[static_cast<std::size_t>(i)].x(),
+                -scene.parameters.setPlay.kickOffLine);
+  }
+}
+
 }  // namespace
 }  // namespace nonet::team
