@@ -89,10 +89,9 @@ Job unpackJob(const std::string& packed, std::int64_t& id) {
 }
 
 std::string packResult(const Result& result) {
-  std::string packed(sizeof result.id + sizeof result.value, '\0');
-  std::memcpy(packed.data(), &result.id, sizeof result.id);
-  std::memcpy(packed.data() + sizeof result.id, &result.value, sizeof result.value);
-  return packed + result.error;
+  std::string packed(reinterpret_cast<const char*>(&result.id), sizeof result.id);
+  packed.append(reinterpret_cast<const char*>(&result.value), sizeof result.value);
+  return packed.append(result.error);
 }
 
 Result unpackResult(const std::string& packed) {
