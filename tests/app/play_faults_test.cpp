@@ -82,7 +82,7 @@ TEST_F(PlayFaults, WaitsAsLongAsToldForAServer) {
   EXPECT_EQ(program.wait(), 2);
   EXPECT_GE(secondsSince(begin), 2.0);
   EXPECT_LT(secondsSince(begin), 3.5);
-  EXPECT_THAT(program.output(), HasSubstr("after 2.0 s"));
+  EXPECT_THAT(program.output(), HasSubstr("after 2."));
 }
 
 TEST_F(PlayFaults, WaitsNoLongerForASilentServer) {

@@ -63,6 +63,7 @@ class Server {
     int timeouts = 0;          // lock-step: times that an agent was given up waiting for
     int skippedExpressions = 0;
   };
+  /// Not while another thread is in run().
   Statistics statistics() const;
 
   struct Implementation;
