@@ -43,10 +43,8 @@ double oursAt(const Situation& s, const Vector2& p_F) {
 // Of ending at p_F, which may be out of the field.
 double endValue(const Situation& s, const Vector2& p_F) {
   const auto& field = s.world.field;
-  const bool out = std::abs(p_F.x()) > 0.5 * field.length || std::abs(p_F.y()) > 0.5 * field.width;
-  if (!out) return valueAt(s, p_F, oursAt(s, p_F));
-  const Vector2 inside(std::clamp(p_F.x(), -0.5 * field.length, 0.5 * field.length),
-                       std::clamp(p_F.y(), -0.5 * field.width, 0.5 * field.width));
+  if (field.holds(p_F)) return valueAt(s, p_F, oursAt(s, p_F));
+  const Vector2 inside = field.nearestInside(p_F);
   const ChoiceParameters& p = s.parameters.choice;
   return -worthOf(-inside, field, p) - p.out * worthOf(inside, field, p);
 }
@@ -104,7 +102,7 @@ double teammatesTime(const Situation& s, const Vector2& p_F) {
 double kickValue(const Situation& s, double direction, double length, bool mayScore) {
   const ChoiceParameters& p = s.parameters.choice;
   const double toLine =
-      (0.5 * s.world.field.length + kGoalLineMargin - s.ball().x()) / std::max(std::cos(direction), 1e-3);
+      (s.world.field.goalLine() + kGoalLineMargin - s.ball().x()) / std::max(std::cos(direction), 1e-3);
   const bool reaches = mayScore && std::cos(direction) > 0.1 && toLine < p.shotLength / p.length * length;
   const double scores = reaches ? hitsGoal(s.world, direction, p.spread) : 0.0;
   const double flown = scores > 0.0 ? std::min(toLine, length) : length;
@@ -132,7 +130,7 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   if (record != nullptr) record->add(s.p_FTarget, best.value);
   const double left = timeLeftAtBall(s);
   const double contested = valueAt(s, s.ball(), 0.5);
-  const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
+  const Vector2 toGoal = s.world.field.theirGoal() - s.ball();
   weighKicks(s, {directionOf(toGoal), -kDirections, kDirections}, record, best,
              [&](const motion::KickHead& kick, double direction, double length) {
                const double comesOff =

@@ -19,21 +19,21 @@ constexpr double kSurelyOver = 0.7;    // probability with which a ball must fly
 
 // Where the ball should end up if nobody were on the field.
 Vector2 goalTarget(const world::WorldState& world, const BallTargetParameters& p) {
-  const double goalX = 0.5 * world.field.length;
+  const double goalX = world.field.goalLine();
   const Vector2 ball = world.ball.p_FB.head<2>();
   // Near the opponent's goal line but beside the goal, first bring the ball to the middle.
-  if (ball.x() > goalX - p.cornerDepth && std::abs(ball.y()) > 0.5 * world.field.goalWidth + p.cornerAside)
+  if (ball.x() > goalX - p.cornerDepth && std::abs(ball.y()) > world.field.post() + p.cornerAside)
     return {goalX - p.cornerBack, 0.0};
   // From afar at the middle, so that a push aside on the way does not end beside the goal.
-  const double inside = goalX - ball.x() > p.afar ? p.middle : 0.5 * world.field.goalWidth - p.insidePost;
+  const double inside = goalX - ball.x() > p.afar ? p.middle : world.field.post() - p.insidePost;
   return {goalX + p.behindLine, std::clamp(ball.y(), -inside, inside)};
 }
 
 // The place between the posts that the opponents leave most open, as long as turning there is worth it.
 Vector2 openGoal(const world::WorldState& world, const BallTargetParameters& p, Candidates* record) {
-  const double goalX = 0.5 * world.field.length;
+  const double goalX = world.field.goalLine();
   const Vector2 ball = world.ball.p_FB.head<2>();
-  const double side = 0.5 * world.field.goalWidth - p.openPostMargin;
+  const double side = world.field.post() - p.openPostMargin;
   Vector2 best(goalX + p.behindLine, 0.0);
   double bestScore = -1e9;
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
@@ -77,10 +77,10 @@ Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParamete
 
 double hitsGoal(const world::WorldState& world, double direction, double spread) {
   const Vector2 ball = world.ball.p_FB.head<2>();
-  const double ahead = 0.5 * world.field.length - ball.x();
+  const double ahead = world.field.goalLine() - ball.x();
   if (ahead <= 0.0) return 0.0;
-  const double left = std::atan2(0.5 * world.field.goalWidth - ball.y(), ahead);
-  const double right = std::atan2(-0.5 * world.field.goalWidth - ball.y(), ahead);
+  const double left = std::atan2(world.field.post() - ball.y(), ahead);
+  const double right = std::atan2(-world.field.post() - ball.y(), ahead);
   const auto below = [&](double angle) {
     return 0.5 * std::erfc((direction - angle) / (std::sqrt(2.0) * spread));
   };
@@ -92,13 +92,13 @@ bool rollsOut(const world::WorldState& world, const BallTargetParameters& p, dou
   const Vector2 ball = world.ball.p_FB.head<2>();
   const Vector2 way = p.rollsOn * unitVector(direction);
   const Vector2 end = ball + way;
-  const double goalLine = 0.5 * world.field.length;
+  const double goalLine = world.field.goalLine();
   if (end.x() < -goalLine) return true;
   if (end.x() > goalLine) {
     const double crossing = ball.y() + (goalLine - ball.x()) / way.x() * way.y();
-    return std::abs(crossing) > 0.5 * world.field.goalWidth - p.postMargin;
+    return std::abs(crossing) > world.field.post() - p.postMargin;
   }
-  return std::abs(end.y()) > 0.5 * world.field.width - p.touchLineMargin;
+  return std::abs(end.y()) > world.field.touchLine() - p.touchLineMargin;
 }
 
 double barred(const world::WorldState& world, const BallTargetParameters& p, double direction) {
@@ -134,8 +134,8 @@ double laneWidth(const world::WorldState& world, const Vector2& from, const Vect
 Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& p,
                    const std::optional<double>& present, Candidates* record) {
   const Vector2 ball = world.ball.p_FB.head<2>();
-  const Vector2 toGoal = Vector2(0.5 * world.field.length, 0.0) - ball;
-  const bool inFront = std::abs(toGoal.y()) < toGoal.x() + 0.5 * world.field.goalWidth - p.atGoalInside;
+  const Vector2 toGoal = world.field.theirGoal() - ball;
+  const bool inFront = std::abs(toGoal.y()) < toGoal.x() + world.field.post() - p.atGoalInside;
   if (toGoal.norm() < p.atGoal && inFront) return openGoal(world, p, record);
   Vector2 target = goalTarget(world, p);
   if (barred(world, p, directionOf(target - ball)) == 0.0) return target;

@@ -60,7 +60,7 @@ Action ChallengePlayer::run(const Situation& s) {
   if (!s.world.self.localized)
     return {motion::WalkVelocity{Pose2(p.blindSpeed, 0.0, 0.0), motion::WalkSet::Sprint}, "blind"};
   if (!start_) start_ = X_FR.translation;
-  if (X_FR.translation.x() > 0.5 * s.world.field.length - p.runOut) return {motion::Stand{}, "arrived"};
+  if (X_FR.translation.x() > s.world.field.goalLine() - p.runOut) return {motion::Stand{}, "arrived"};
   const Pose2 ahead(X_FR.translation.x() + p.runAhead, start_->y(), 0.0);
   motion::WalkTo walk;
   walk.target = X_FR.inverse() * ahead;

@@ -11,12 +11,6 @@ namespace nonet::team {
 
 namespace {
 
-Vector2 insideField(const Vector2& place, const world::FieldGeometry& field, double margin) {
-  const double x = 0.5 * field.length - margin;
-  const double y = 0.5 * field.width - margin;
-  return {std::clamp(place.x(), -x, x), std::clamp(place.y(), -y, y)};
-}
-
 // What a place must keep: distance from the more important places, nobody but the nearer back with the goalie
 // in the own penalty area (illegal defence, server facts 4.10), backs on the own side of the ball.
 struct PlaceRules {
@@ -37,7 +31,7 @@ struct PlaceRules {
   }
 
   bool beyondBall(const Vector2& place) const {
-    const Vector2 ownGoal(-0.5 * field.length, 0.0);
+    const Vector2 ownGoal = field.ownGoal();
     const Vector2 way = formation.positions[0] - ownGoal;
     return (place - ownGoal).dot(way) >= way.squaredNorm();
   }
@@ -53,14 +47,14 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
   constexpr int kDirections = 16;
   const PlaceRules rules{formation, field, parameters, backsBehindBall};
   for (int i = 1; i < formation.count; ++i) {  // the one on the ball follows it to the line
-    const Vector2 wanted = insideField(formation.positions[i], field, parameters.touchLineMargin);
+    const Vector2 wanted = field.nearestInside(formation.positions[i], parameters.touchLineMargin);
     formation.positions[i] = wanted;
     bool found = rules.allows(i, wanted);
     for (int k = 0; k < kRings * kDirections && !found; ++k) {
       const double angle = 2.0 * kPi * (k % kDirections) / kDirections;
       const double radius = kRing * (1 + k / kDirections);  // NOLINT(bugprone-integer-division): ring number
       const Vector2 place =
-          insideField(wanted + radius * unitVector(angle), field, parameters.touchLineMargin);
+          field.nearestInside(wanted + radius * unitVector(angle), parameters.touchLineMargin);
       found = rules.allows(i, place);
       if (found) formation.positions[i] = place;
     }
@@ -69,7 +63,7 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
 
 std::array<Vector2, kFieldRoles> usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
                                              const FormationParameters& parameters) {
-  const Vector2 ownGoal(-0.5 * field.length, 0.0);
+  const Vector2 ownGoal = field.ownGoal();
   const Vector2 goalToBall = p_FB - ownGoal;
   const double distance = std::max(goalToBall.norm(), 1e-6);
   const Vector2 along = goalToBall / distance;

@@ -13,7 +13,7 @@ using Places = std::array<Vector2, kFieldRoles>;
 // The line from the own goal to the ball, and what lies beside it.
 struct GoalLine {
   GoalLine(const Vector2& p_FB, const world::FieldGeometry& field)
-      : goal(-0.5 * field.length, 0.0),
+      : goal(field.ownGoal()),
         distance(std::max((p_FB - goal).norm(), 1e-6)),
         along((p_FB - goal) / distance),
         aside(-along.y(), along.x()) {}

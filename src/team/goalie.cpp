@@ -11,10 +11,6 @@ namespace nonet::team {
 
 namespace {
 
-Vector2 ownGoal(const world::FieldGeometry& field) {
-  return {-0.5 * field.length, 0.0};
-}
-
 world::BallMotion inFrame(const Pose2& X_RF, const world::BallMotion& ball) {
   const Vector2 p = X_RF * Vector2(ball.p_FB.head<2>());
   const Vector2 v = Pose2(0.0, 0.0, X_RF.rotation) * Vector2(ball.v_FB.head<2>());
@@ -29,7 +25,7 @@ bool mayGoTo(const Vector2& p_F, const Situation& s) {
 }  // namespace
 
 Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters) {
-  const Vector2 goal = ownGoal(field);
+  const Vector2 goal = field.ownGoal();
   const double distance = (p_FB - goal).norm();
   const double out = std::min(parameters.outOfGoal, parameters.outShare * distance);
   Vector2 place = goal + out * (p_FB - goal).normalized();
@@ -43,8 +39,8 @@ std::optional<ComingShot> comingShot(const Situation& s) {
   const world::FieldGeometry& field = s.world.field;
   const world::BallMotion ball{s.world.ball.p_FB, s.world.ball.v_FB};
   if (ball.v_FB.x() > -p.diveBallSpeed) return std::nullopt;
-  const auto atGoal = world::crossingOfLine(ball, -0.5 * field.length);
-  if (!atGoal || std::abs(atGoal->y) > 0.5 * field.goalWidth + p.postMargin || atGoal->height > p.highest)
+  const auto atGoal = world::crossingOfLine(ball, -field.goalLine());
+  if (!atGoal || std::abs(atGoal->y) > field.post() + p.postMargin || atGoal->height > p.highest)
     return std::nullopt;
   const world::BallMotion seen = inFrame(s.world.self.X_FR.inverse(), ball);
   if (seen.p_FB.x() < 0.0) return std::nullopt;  // past the robot
@@ -65,7 +61,7 @@ bool goalieWantsBall(const Situation& s, bool claims) {
   if (s.phase() == world::Phase::OwnGoalKick) return true;
   if (s.phase() != world::Phase::PlayOn || comingShot(s)) return false;
   const GoalieParameters& p = s.parameters.goalie;
-  const Vector2 goal = ownGoal(s.world.field);
+  const Vector2 goal = s.world.field.ownGoal();
   const double distance = (s.forecast.at(p.claimAhead) - goal).norm();
   const double reach = p.attackDistance * (claims ? p.keepClaim : 1.0);
   if (distance > reach || !mayGoTo(s.forecast.at(p.claimAhead), s)) return false;

@@ -48,7 +48,7 @@ struct Area {
 };
 
 Area areaWith(const world::FieldGeometry& field, double margin) {
-  return {-0.5 * field.length + field.areaLength + margin, 0.5 * field.areaWidth + margin};
+  return {-field.goalLine() + field.areaLength + margin, 0.5 * field.areaWidth + margin};
 }
 
 }  // namespace

@@ -22,12 +22,6 @@ bool canReceive(const Situation& s, int unum) {
   return unum != s.world.game.unum && mate.known && !mate.fallen;
 }
 
-bool endsInside(const Situation& s, const Vector2& p_F) {
-  const double margin = s.parameters.pass.margin;
-  return std::abs(p_F.x()) < 0.5 * s.world.field.length - margin &&
-         std::abs(p_F.y()) < 0.5 * s.world.field.width - margin;
-}
-
 bool serves(const motion::KickOption& kick, double distance, const Situation& s) {
   if (kick.head.room > s.nearestOpponent) return false;
   // Who kicks straight does it with either foot: motion chooses.
@@ -44,18 +38,29 @@ std::optional<Vector2> presentTarget(const Situation& s) {
   return s.world.self.X_FR * kick->target;
 }
 
-// The receiver may be there before the ball and wait; opponents set off when they see the ball coming.
-double receiverFirst(const Situation& s, const world::PlayerState& mate, const Pass& pass) {
-  const ChoiceParameters& p = s.parameters.choice;
-  const double ours = arrival(mate, pass.p_FTarget, p.ownPace, s.parameters.pace.risingTime) - pass.untilKick;
-  return probabilityFirst(std::max(ours, 0.0), opponentsTime(s, pass.p_FTarget), p.arrivalSpread);
+// What opponents can do against a pass to some place, whoever kicks it how.
+struct Resistance {
+  double arrival = 0.0;  // s until one of them is at the place
+  Block block;           // of the ball on its way
+};
+
+Resistance resistanceTo(const Situation& s, const Vector2& p_FTarget) {
+  return {opponentsTime(s, p_FTarget), blockOf(s, p_FTarget - s.ball())};
 }
 
-// Zero: it will hardly arrive.
-double valueOf(const Situation& s, const world::PlayerState& mate, const Pass& pass, double left) {
+// The receiver may be there before the ball and wait; opponents set off when they see the ball coming.
+double receiverFirst(const Situation& s, const world::PlayerState& mate, const Pass& pass, double theirs) {
+  const ChoiceParameters& p = s.parameters.choice;
+  const double ours = arrival(mate, pass.p_FTarget, p.ownPace, s.parameters.pace.risingTime) - pass.untilKick;
+  return probabilityFirst(std::max(ours, 0.0), theirs, p.arrivalSpread);
+}
+
+// Zero: it will hardly arrive. `left`: s until an opponent plays the ball where it lies.
+double valueOf(const Situation& s, const world::PlayerState& mate, const Pass& pass,
+               const Resistance& resistance, double left) {
   const PassParameters& p = s.parameters.pass;
-  const double ours = receiverFirst(s, mate, pass);
-  const Block block = blockOf(s, pass.p_FTarget - s.ball());
+  const Block& block = resistance.block;
+  const double ours = receiverFirst(s, mate, pass, resistance.arrival);
   if (ours < p.ours || block.probability > p.lane) return 0.0;
   const double comesOff = probabilityFirst(pass.untilKick, left, s.parameters.choice.setupSpread);
   const double played = (1.0 - block.probability) * valueAt(s, pass.p_FTarget, ours) +
@@ -67,7 +72,7 @@ double valueOf(const Situation& s, const world::PlayerState& mate, const Pass& p
 
 std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
   const PassParameters& p = s.parameters.pass;
-  const Vector2 goal(0.5 * s.world.field.length, 0.0);
+  const Vector2 goal = s.world.field.theirGoal();
   const double left = timeLeftAtBall(s);
   const std::optional<Vector2> present = presentTarget(s);
   std::optional<Pass> best;
@@ -80,13 +85,15 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
       const Vector2 target = mate.X_FP.translation + run * p.runStep * onward;
       const Vector2 way = target - s.ball();
       const double distance = way.norm();
-      if (distance < p.least || distance > p.most || !endsInside(s, target)) continue;
+      if (distance < p.least || distance > p.most || !s.world.field.holds(target, p.margin)) continue;
+      std::optional<Resistance> resistance;
       for (const motion::KickOption& kick : s.motion.kicks) {
         if (!serves(kick, distance, s)) continue;
+        if (!resistance) resistance = resistanceTo(s, target);
         Pass pass{unum, target, kick.name};
         pass.untilKick = timeToContact(s, kick.head, directionOf(way) - kick.head.direction);
         pass.untilThere = pass.untilKick + p.rollTime;
-        pass.value = valueOf(s, mate, pass, left);
+        pass.value = valueOf(s, mate, pass, *resistance, left);
         if (present && (*present - target).norm() < p.same) pass.value += p.keep;
         if (record != nullptr) record->add(target, pass.value);
         if (pass.value <= most) continue;

@@ -86,7 +86,7 @@ double dribbleValue(const Situation& s) {
 }
 
 double worthOf(const Vector2& p_F, const world::FieldGeometry& field, const ChoiceParameters& p) {
-  const Vector2 goal(0.5 * field.length, 0.0);
+  const Vector2 goal = field.theirGoal();
   return p.worthMost * std::exp(-(goal - p_F).norm() / p.worthScale);
 }
 

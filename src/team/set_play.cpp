@@ -20,13 +20,13 @@ double direction(world::Phase phase, const Vector2& p_FB, const world::FieldGeom
     case world::Phase::OwnKickIn:
       return inwards * parameters.kickInAngle;
     case world::Phase::OwnCorner: {
-      const Vector2 way = Vector2(0.5 * field.length - parameters.cornerBack, 0.0) - p_FB;
+      const Vector2 way = Vector2(field.goalLine() - parameters.cornerBack, 0.0) - p_FB;
       return directionOf(way);
     }
     case world::Phase::OwnGoalKick:
       return inwards * parameters.goalKickAngle;
     default: {
-      const Vector2 way = Vector2(0.5 * field.length, 0.0) - p_FB;
+      const Vector2 way = field.theirGoal() - p_FB;
       return directionOf(way);
     }
   }
@@ -41,7 +41,7 @@ SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGe
   SetPlay play;
   play.p_FTarget = p_FB + 2.0 * parameters.passLength * along;
   play.p_FReceiver = p_FB + parameters.passLength * along - Vector2(parameters.behindPass, 0.0);
-  const double edge = 0.5 * field.width - parameters.receiverMargin;
+  const double edge = field.touchLine() - parameters.receiverMargin;
   play.p_FReceiver.y() = std::clamp(play.p_FReceiver.y(), -edge, edge);
   return play;
 }

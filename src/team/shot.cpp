@@ -24,9 +24,9 @@ double scores(const world::WorldState& world, const motion::KickHead& kick, cons
 std::optional<Shot> bestShot(const world::WorldState& world, std::span<const motion::KickOption> kicks,
                              const ShotParameters& p) {
   const Vector2 ball = world.ball.p_FB.head<2>();
-  const Vector2 goal(0.5 * world.field.length, 0.0);
+  const Vector2 goal = world.field.theirGoal();
   if ((goal - ball).norm() > p.distance) return std::nullopt;
-  const double side = 0.5 * world.field.goalWidth - p.postMargin;
+  const double side = world.field.post() - p.postMargin;
   std::optional<Shot> best;
   double most = 0.0;
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {

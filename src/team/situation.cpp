@@ -45,8 +45,7 @@ Formation placesFor(const Situation& s) {
 
 // Straight away from the own goal.
 Vector2 awayTarget(const Situation& s) {
-  const Vector2 ownGoal(-0.5 * s.world.field.length, 0.0);
-  return s.ball() + s.parameters.variant.clearLength * (s.ball() - ownGoal).normalized();
+  return s.ball() + s.parameters.variant.clearLength * (s.ball() - s.world.field.ownGoal()).normalized();
 }
 
 bool receiverReady(const Situation& s) {

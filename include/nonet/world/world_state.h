@@ -3,7 +3,9 @@
 // coordinates.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -27,6 +29,24 @@ struct FieldGeometry {
   double areaLength = 1.8;    // m, penalty area from the goal line
   double areaWidth = 6.0;     // m
   double circleRadius = 2.0;  // m
+
+  // In the own field frame: the opponent's goal line is at x = goalLine(), the touch lines at y =
+  // +-touchLine().
+  double goalLine() const { return 0.5 * length; }
+  double touchLine() const { return 0.5 * width; }
+  double post() const { return 0.5 * goalWidth; }
+  Vector2 ownGoal() const { return {-goalLine(), 0.0}; }
+  Vector2 theirGoal() const { return {goalLine(), 0.0}; }
+  /// Whether a place is in the field, at least `margin` (m) from its lines.
+  bool holds(const Vector2& p_F, double margin = 0.0) const {
+    return std::abs(p_F.x()) < goalLine() - margin && std::abs(p_F.y()) < touchLine() - margin;
+  }
+  /// The nearest place in the field that is `margin` (m) from its lines.
+  Vector2 nearestInside(const Vector2& p_F, double margin = 0.0) const {
+    const double x = goalLine() - margin;
+    const double y = touchLine() - margin;
+    return {std::clamp(p_F.x(), -x, x), std::clamp(p_F.y(), -y, y)};
+  }
 };
 
 /// Play modes from the own team's view.

@@ -38,9 +38,7 @@ std::optional<Action> awaitBall(const Situation& s) {
   if (!s.play || s.play->wait || s.play->use == KickUse::Never || speed < p.kickRolling) return std::nullopt;
   const double time = timeToSlow(speed, p.kickRolling);
   const Vector2 rest = s.forecast.at(time);
-  const bool inside =
-      std::abs(rest.x()) < 0.5 * s.world.field.length && std::abs(rest.y()) < 0.5 * s.world.field.width;
-  if (!inside || opponentsTime(s, rest) < time + p.awaitMargin) return std::nullopt;
+  if (!s.world.field.holds(rest) || opponentsTime(s, rest) < time + p.awaitMargin) return std::nullopt;
   const double direction = directionOf(s.play->p_FTarget - rest);
   const Vector2 behind = rest - p.behindBall * unitVector(direction);
   Caution caution;

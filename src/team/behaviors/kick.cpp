@@ -14,12 +14,12 @@ namespace {
 // Where the ball's way to its target meets the goal line, own field frame.
 Vector2 goalCrossing(const Situation& s) {
   const Vector2 way = s.play->p_FTarget - s.ball();
-  const double toLine = 0.5 * s.world.field.length - s.ball().x();
+  const double toLine = s.world.field.goalLine() - s.ball().x();
   return s.ball() + toLine / std::max(way.x(), 1e-6) * way;
 }
 
 bool betweenPosts(const Situation& s, const Vector2& crossing) {
-  return std::abs(crossing.y()) < 0.5 * s.world.field.goalWidth;
+  return std::abs(crossing.y()) < s.world.field.post();
 }
 
 // Where the longest kick towards the target comes to rest, own field frame.
@@ -31,7 +31,7 @@ Vector2 kickEnd(const Situation& s) {
 }
 
 bool beyondGoalLine(const Situation& s, const Vector2& end) {
-  return end.x() > 0.5 * s.world.field.length;
+  return end.x() > s.world.field.goalLine();
 }
 
 bool endsInGoal(const Situation& s, const Vector2& end) {
@@ -39,7 +39,7 @@ bool endsInGoal(const Situation& s, const Vector2& end) {
 }
 
 bool endsInField(const Situation& s, const Vector2& end) {
-  if (std::abs(end.y()) > 0.5 * s.world.field.width) return false;
+  if (std::abs(end.y()) > s.world.field.touchLine()) return false;
   return !beyondGoalLine(s, end) || endsInGoal(s, end);
 }
 

@@ -19,7 +19,7 @@ constexpr double kSameWay = 0.3;  // rad
 // An opponent at the ball bars its way to the goal, and that is far.
 bool isHeldUp(const Situation& s) {
   const AsideParameters& p = s.parameters.aside;
-  const Vector2 toGoal = Vector2(0.5 * s.world.field.length, 0.0) - s.ball();
+  const Vector2 toGoal = s.world.field.theirGoal() - s.ball();
   return s.nearestOpponent <= p.opponent && toGoal.norm() >= p.fromGoal &&
          barred(s.world, s.parameters.target, directionOf(toGoal)) >= p.barred;
 }
@@ -39,14 +39,10 @@ bool isFree(const Situation& s, const Vector2& to) {
                       });
 }
 
-bool isInside(const Situation& s, const Vector2& p_F) {
-  return std::abs(p_F.x()) < 0.5 * s.world.field.length && std::abs(p_F.y()) < 0.5 * s.world.field.width;
-}
-
 // Nobody is in its way, it stays in the field, and one of us is there first.
 bool comesOff(const Situation& s, double direction, double length) {
   const Vector2 end = s.ball() + length * unitVector(direction);
-  return isInside(s, end + s.parameters.aside.margin * unitVector(direction)) && isFree(s, end) &&
+  return s.world.field.holds(end + s.parameters.aside.margin * unitVector(direction)) && isFree(s, end) &&
          teammatesTime(s, end) <= opponentsTime(s, end);
 }
 

@@ -13,7 +13,7 @@ namespace {
 // fall.
 Vector2 outOfTheirArea(const Situation& s, Vector2 place) {
   const double room = s.parameters.clearOfGoalKick;
-  const double edge = 0.5 * s.world.field.length - s.world.field.areaLength - room;
+  const double edge = s.world.field.goalLine() - s.world.field.areaLength - room;
   if (std::abs(place.y()) < 0.5 * s.world.field.areaWidth + room) place.x() = std::min(place.x(), edge);
   return place;
 }
@@ -26,7 +26,7 @@ std::optional<Action> opponentSetPiece(const Situation& s) {
   constexpr double kAnyDistance = 0.1;  // m; only the direction counts, the place is moved out below
   constexpr double kTieBreak = 1e-3;    // m; towards the own goal for a place on the ball itself
   const Vector2 ball = s.ball();
-  const Vector2 ownGoal(-0.5 * s.world.field.length, 0.0);
+  const Vector2 ownGoal = s.world.field.ownGoal();
   const bool blocks = s.role == Role::OnBall;
   Vector2 place = blocks ? Vector2(ball + kAnyDistance * (ownGoal - ball).normalized()) : rolePlace(s);
   const Vector2 away = place - ball;
