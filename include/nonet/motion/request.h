@@ -26,11 +26,13 @@ struct WalkVelocity {
   WalkSet set = WalkSet::Automatic;
 };
 
-/// Walks to a pose in the present robot frame, and stops there or runs through it.
+/// Walks to a pose in the present robot frame, and stops there or runs through it. From afar it faces the
+/// target, near it the target's heading; with `turnAtOnce` that heading from the beginning.
 struct WalkTo {
   Pose2 target;
   bool stopAtTarget = true;
   WalkSet set = WalkSet::Automatic;
+  bool turnAtOnce = false;
 };
 
 /// Plays a skill of skills/*.skl to its end. `side` Right mirrors it.

@@ -196,7 +196,13 @@ struct ShotParameters {
 struct BallHandlingParameters {
   double behindBall = 0.18;
   double standOff = 0.28;
-  double circleRadius = 0.45;
+  double circleRadius = 0.3;
+  double circleOpen = 1.2;
+  double circleLead = 0.08;
+  double turnAlong = 4.0;
+  double turnLast = 0.25;
+  double turnedRoom = 0.1;
+  double turnedAngle = 1.6;
   double circleRoom = 0.3;
   double circleEither = 0.2;
   double dribbleThrough = 0.6;
@@ -214,8 +220,6 @@ struct BallHandlingParameters {
   double kickBehind = 0.08;
   double kickBesides = 0.055;
   double alignedBehind = 0.05;
-  double circleBehind = 0.5;
-  double faceAway = 1.0;
   double waitRoom = 0.25;
   double awaitMargin = 1.5;
   double awaitAside = 0.3;
@@ -235,9 +239,46 @@ struct BallHandlingParameters {
     visit({"circleRadius",
            Unit::Metre,
            {0.1, 3},
-           search(0.3, 0.8),
-           "Distance kept when walking around the ball"},
+           search(0.2, 0.6),
+           "Distance kept from the ball when walking around it"},
           self.circleRadius);
+    visit({"circleOpen",
+           Unit::Radian,
+           {0.1, 3.2},
+           search(0.5, 2),
+           "This angle from straight behind the ball the way around it begins to come in"},
+          self.circleOpen);
+    visit({"circleLead",
+           Unit::Second,
+           {0, 0.5},
+           search(0, 0.2),
+           "The way behind the ball begins where the present steps lead in this time"},
+          self.circleLead);
+    visit({"turnAlong",
+           Unit::None,
+           {0, 20},
+           search(1, 8),
+           "On the way behind the ball the robot faces where it walks; it turns to the ball's way when the "
+           "turn takes more than so many radians for each metre left"},
+          self.turnAlong);
+    visit({"turnLast",
+           Unit::Metre,
+           {0, 1},
+           search(0, 0.5),
+           "So long before the end of the way behind the ball that turn should be done"},
+          self.turnLast);
+    visit({"turnedRoom",
+           Unit::Metre,
+           {0, 0.5},
+           search(0, 0.2),
+           "Farther behind the ball by this while the robot is turned away: toes and heels reach far"},
+          self.turnedRoom);
+    visit({"turnedAngle",
+           Unit::Radian,
+           {0.1, 3.2},
+           fixed,
+           "The room is that in full when turned away by this, and grows in proportion until then"},
+          self.turnedAngle);
     visit({"circleRoom",
            Unit::Metre,
            {0, 2},
@@ -320,18 +361,6 @@ struct BallHandlingParameters {
           self.kickBesides);
     visit({"alignedBehind", Unit::Metre, {0, 1}, search(0, 0.12), "Dribble when this far behind the ball"},
           self.alignedBehind);
-    visit({"circleBehind",
-           Unit::None,
-           {0, 1},
-           search(0.2, 0.9),
-           "Walk around the ball until this share of behindBall behind it"},
-          self.circleBehind);
-    visit({"faceAway",
-           Unit::Metre,
-           {0, 5},
-           fixed,
-           "An approach point farther than this is faced on the way there"},
-          self.faceAway);
     visit({"awaitMargin",
            Unit::Second,
            {-10, 100},

@@ -14,12 +14,12 @@ constexpr double kFacingDistance = 0.5;  // m
 
 // Walks and turns at the same time, always [MacAlpine 2012a, section 4.2]: straight at the target as fast as
 // the set allows in that direction, turning towards it when far, to the target's heading when near.
-Pose2 speedTowards(const ApproachParameters& p, const GaitParameters& gait, const Pose2& X_WTarget,
-                   bool stop) {
+Pose2 speedTowards(const ApproachParameters& p, const GaitParameters& gait, const Pose2& X_WTarget, bool stop,
+                   bool turnAtOnce) {
   const Vector2& target = X_WTarget.translation;
   const double distance = target.norm();
   const double bearing = distance > 1e-6 ? std::atan2(target.y(), target.x()) : 0.0;
-  const double far = std::clamp(2.0 * distance / kFacingDistance - 1.0, 0.0, 1.0);
+  const double far = turnAtOnce ? 0.0 : std::clamp(2.0 * distance / kFacingDistance - 1.0, 0.0, 1.0);
   const double angle = wrapAngle(X_WTarget.rotation + far * wrapAngle(bearing - X_WTarget.rotation));
 
   const double duration = Gait::stepDuration(gait);

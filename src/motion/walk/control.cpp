@@ -101,7 +101,8 @@ Pose2 WalkControl::speedFor(const MotionRequest& request) const {
     speed.translation = X_WR.rotate(speed.translation);
   }
   if (const auto* walk = std::get_if<WalkTo>(&request)) {
-    speed = speedTowards(active_.approach, active_.gait, X_WR * walk->target, walk->stopAtTarget);
+    speed = speedTowards(active_.approach, active_.gait, X_WR * walk->target, walk->stopAtTarget,
+                         walk->turnAtOnce);
   }
   return speed;
 }

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/team/behaviors.h"
+#include "nonet/team/way_behind.h"
 
 #include "team/behaviors/push.h"
 
@@ -35,21 +37,45 @@ double sideAround(const Situation& s, const Vector2& behind) {
   return either && blocked(s, behind + side * way) && !blocked(s, behind - side * way) ? -side : side;
 }
 
+// Where the robot walks, until the turn to the ball's way takes as long as the rest of the way.
+double headingOnTheWay(const Vector2& next, double direction, double turn) {
+  const double off = wrapAngle(directionOf(next) - direction);
+  return wrapAngle(direction + std::clamp(off, -turn, turn));
+}
+
+// What the robot will have done in so long whatever it is told now.
+Pose2 coast(const world::BodyState& body, double seconds) {
+  const double cycles = seconds / std::max(body.cycleTime, 1e-3);
+  return {cycles * body.odometryStep.translation, cycles * body.odometryStep.rotation};
+}
+
+// The curve outside of which the robot goes; wider while its feet point elsewhere.
+BallCurve curveAround(const Situation& s, double turned) {
+  const BallHandlingParameters& p = s.parameters.ball;
+  const bool careful = s.play->behind > 0.0 && pushRollsOut(s);
+  const double share = std::min(std::abs(turned) / p.turnedAngle, 1.0);
+  const double behind = careful ? p.standOff : p.behindBall + share * p.turnedRoom;
+  return {behind, std::max(p.circleRadius, behind), p.circleOpen};
+}
+
 }  // namespace
 
 std::optional<Action> goBehindBall(const Situation& s) {
   if (!s.play) return std::nullopt;
   const BallPlay& play = *s.play;
   const BallHandlingParameters& p = s.parameters.ball;
-  const bool careful = play.behind > 0.0 && pushRollsOut(s);
-  Vector2 next = play.ball - (careful ? p.standOff : p.behindBall) * play.along;
-  // Not behind the ball yet: go around it, on the side on which the robot already is. `behind` of the place
-  // itself is behindBall, so a share of it tells the two cases apart without flicker.
-  const bool around = play.behind < p.circleBehind * p.behindBall;
-  if (around) next += sideAround(s, next) * p.circleRadius * play.aside;
-  const bool far = next.norm() > p.faceAway;
-  const double heading = far ? directionOf(next) : play.direction;
-  Action action(motion::WalkTo{Pose2(next, heading), false}, around ? "around" : "straight");
+  const Pose2 X_RThen = coast(s.world.body, p.circleLead);
+  const Vector2 ball = X_RThen.inverse() * play.ball;
+  const double direction = wrapAngle(play.direction - X_RThen.rotation);
+  const Pose2 X_RBall(ball, direction);
+  const BallCurve curve = curveAround(s, direction);
+  const double side = sideAround(s, play.ball - curve.behind * play.along);
+  const WayBehind way = wayBehind(X_RBall.inverse().translation, curve, side);
+  const Vector2 next = X_RBall * way.next;
+  const double turn = p.turnAlong * std::max(way.length - p.turnLast, 0.0);
+  motion::WalkTo walk{Pose2(next, headingOnTheWay(next, direction, turn)), false};
+  walk.turnAtOnce = true;
+  Action action(walk, way.straight ? "straight" : "around");
   action.reason.candidates = play.candidates;
   return action;
 }

@@ -44,5 +44,15 @@ TEST(Approach, FacesTheTargetUntilItIsNear) {
   EXPECT_NEAR(turn(0.275), -0.2 + 0.1 * (0.5 * kPi + 0.2), 1e-12);
 }
 
+TEST(Approach, TurnsAtOnceIfItIsToldTo) {
+  const ApproachParameters p;
+  const GaitParameters gait;
+  for (const double distance : {0.1, 0.4, 3.0}) {
+    const Pose2 speed = speedTowards(p, gait, Pose2(0.0, distance, -0.2), false, true);
+    EXPECT_NEAR(speed.rotation, -0.2 * p.turnGain, 1e-12) << distance;
+    EXPECT_NEAR(speed.translation.y(), gait.maxStepY / Gait::stepDuration(gait), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace nonet::motion

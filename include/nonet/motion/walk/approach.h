@@ -36,8 +36,9 @@ struct ApproachParameters {
   }
 };
 
-/// m/s, m/s, rad/s in the walk frame, in which the target is given. `stop`: slow down near the target.
+/// m/s, m/s, rad/s in the walk frame, in which the target is given. `stop`: slow down near the target;
+/// `turnAtOnce`: take the target's heading however far it is.
 Pose2 speedTowards(const ApproachParameters& parameters, const GaitParameters& gait, const Pose2& X_WTarget,
-                   bool stop);
+                   bool stop, bool turnAtOnce = false);
 
 }  // namespace nonet::motion
