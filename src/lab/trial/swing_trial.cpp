@@ -96,6 +96,21 @@ struct SwingTrial::Implementation {
       body.joints[model::index(joint.id)] = world.jointAngle(robot, joint.id);
   }
 
+  // What curves are anchored by: how the torso stands, and the ball where it is believed to be (off as much
+  // as it was at the begin).
+  void perceive() {
+    const sim::ScenePose& torso = world.bodyPose(robot, model::BodyId::Torso);
+    const sim::Vector3f left = -torso.rotation.col(0);  // the server's bodies look along y
+    const sim::Vector3f forward = torso.rotation.col(1);
+    body.pitch = std::asin(std::clamp(-static_cast<double>(forward.z()), -1.0, 1.0));
+    body.roll = std::atan2(static_cast<double>(left.z()), static_cast<double>(torso.rotation(2, 2)));
+    body.torsoHeight = static_cast<double>(torso.position.z());
+    state.body = body;
+    state.ball.known = true;
+    state.ball.v_FB = ball().v_FB;
+    state.ball.p_RB = truePose(world, robot).inverse() * Vector2(ball().p_FB.head<2>() + p_WBelieved);
+  }
+
   void step() {
     moveJoints();
     world.prePhysics();
@@ -122,9 +137,9 @@ struct SwingTrial::Implementation {
     targets.angles = body.joints;
     targets.stiffness.fill(1.0);
     direction = X_WR.rotation + option.head.direction + start.aim.turn;
-    state.body = body;
     motion::KickAim aim = start.aim;
     aim.ball += moved;
+    p_WBelieved = X_WR * aim.ball - ball().p_FB.head<2>();
     aim.distance = distance.value_or(aim.distance);
     player.start(kick, start.foot == model::Side::Right, targets.angles, aim);
   }
@@ -144,7 +159,10 @@ struct SwingTrial::Implementation {
     Vector2 from = ball().p_FB.head<2>();
     const Pose2 aim(from, direction);
     while (over < kStands && !settled && !result.fell) {
-      if (player.running()) player.update(state, targets);
+      if (player.running()) {
+        perceive();
+        player.update(state, targets);
+      }
       over += player.running() ? 0.0 : kCycleTime;
       const double before = ball().v_FB.norm();
       step();
@@ -185,8 +203,9 @@ struct SwingTrial::Implementation {
   world::WorldState state;
   motion::JointTargets targets;
   protocol::Effectors effectors;
-  Pose2 X_WR;              // when the kick began
-  double direction = 0.0;  // world, rad: where the ball should go
+  Pose2 X_WR;                             // when the kick began
+  Vector2 p_WBelieved = Vector2::Zero();  // ball as it was believed then, from where it was
+  double direction = 0.0;                 // world, rad: where the ball should go
 };
 
 SwingTrial::SwingTrial(const agent::AgentSettings& agent, const std::string& kick, bool quickSolver)
