@@ -13,6 +13,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
+#include "nonet/motion/curve_check.h"
 #include "nonet/motion/joint_control.h"
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/motion/skill_player.h"
@@ -75,6 +76,7 @@ struct SwingTrial::Implementation {
         catalogue(library, agent.robotType),
         stand(motion::WalkEngine::standAngles(
             model, agent.parameters.motion.sets.of(agent.parameters.motion.selection.standSet()))),
+        check(model, library, stand),
         control(model, agent.parameters.motion.control),
         player(model, library, stand),
         world(worldOf(quickSolver)) {
@@ -141,6 +143,7 @@ struct SwingTrial::Implementation {
     aim.ball += moved;
     p_WBelieved = X_WR * aim.ball - ball().p_FB.head<2>();
     aim.distance = distance.value_or(aim.distance);
+    allowed = check.check(option, aim.ball).allows();
     player.start(kick, start.foot == model::Side::Right, targets.angles, aim);
   }
 
@@ -151,6 +154,7 @@ struct SwingTrial::Implementation {
   Swing run(const KickStart& start, const std::optional<double>& distance) {
     begin(start, distance);
     Swing swing;
+    if (!allowed) return swing;  // motion would not begin it
     Kick& result = swing.kick;
     double time = 0.0;
     double over = 0.0;  // s since the end of the skill
@@ -195,6 +199,7 @@ struct SwingTrial::Implementation {
   motion::SkillLibrary library;
   motion::KickCatalogue catalogue;
   model::JointArray stand;
+  motion::CurveCheck check;
   motion::JointControl control;
   motion::SkillPlayer player;
   sim::World world;
@@ -206,6 +211,7 @@ struct SwingTrial::Implementation {
   Pose2 X_WR;                             // when the kick began
   Vector2 p_WBelieved = Vector2::Zero();  // ball as it was believed then, from where it was
   double direction = 0.0;                 // world, rad: where the ball should go
+  bool allowed = true;                    // by the check of curves
 };
 
 SwingTrial::SwingTrial(const agent::AgentSettings& agent, const std::string& kick, bool quickSolver)
