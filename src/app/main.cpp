@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   nonet::app::addSkillCommand(app, exitCode);
   nonet::app::addWalkReportCommand(app, exitCode);
   nonet::app::addRiseReportCommand(app, exitCode);
+  nonet::app::addKickCommand(app, exitCode);
   nonet::app::addKickReportCommand(app, exitCode);
   nonet::app::addBallReportCommand(app, exitCode);
   nonet::app::addEnvCommand(app, exitCode);

@@ -9,12 +9,6 @@ namespace nonet::motion {
 
 using model::Side;
 
-namespace {
-
-constexpr double kOfFullSpeed = 0.95;  // in the mean of a step: within it a joint's speed varies
-
-}  // namespace
-
 Matrix3 rotationOf(const Vector3& rollPitchYaw) {
   return (Eigen::AngleAxisd(rollPitchYaw.z(), Vector3::UnitZ()) *
           Eigen::AngleAxisd(rollPitchYaw.y(), Vector3::UnitY()) *

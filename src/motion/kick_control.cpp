@@ -15,6 +15,12 @@ using model::Side;
 namespace {
 
 constexpr double kNear = 0.01;  // m; from here on the least speed fades, so that it does not jump
+// A kick with its ball behind the robot: as long as it must still turn by more than this, rad, it keeps so
+// far from the ball, m.
+constexpr double kTurned = 0.5;
+constexpr double kTurnsAt = 0.27;
+// And it comes up to the ball so slowly that it stops before it, m/s.
+constexpr double kBackwards = 0.25;
 
 // Out of the walk a kick begins where the step has ended that stands on the kicking foot: the other one
 // becomes the stance. Only out of slow steps: fast ones leave too much to balance.
@@ -22,6 +28,16 @@ bool stepEnds(const GaitState& gait, Side foot, const KickParameters& p) {
   if (gait.standing || gait.stance != foot || gait.phase < 1.0 - 1e-6) return false;
   return gait.step.translation.norm() < p.strideSpeed * gait.stepDuration &&
          std::abs(gait.step.rotation) < p.strideTurn * gait.stepDuration;
+}
+
+// Where to go first when the ball is to lie behind: there the robot turns without touching it.
+Vector2 turningPlace(const Vector2& place, double turn, const Vector2& ball, const KickHead& head) {
+  if (head.p_RBall.x() >= 0.0 || std::abs(turn) < kTurned) return place;
+  return ball + kTurnsAt * (place - ball).normalized();
+}
+
+Vector2 shortened(const Vector2& way, double most) {
+  return way * std::min(1.0, most / std::max(way.norm(), 1e-9));
 }
 
 // How far the kick takes a ball for which so much is wanted. One that does not scale goes too far for a pass,
@@ -132,7 +148,11 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   // The steps follow a ball that still rolls. In full they would run into it.
   KickTo ahead = after(p.coast, request, walk);
   ahead.ball += p.follow * (p.coast + delay + head.contact) * request.ballVelocity;
-  step.walk = lastSteps(wayTo(*chosen_, ahead), p.follow * request.ballVelocity);
+  Way toPlace = wayTo(*chosen_, ahead);
+  toPlace.place = turningPlace(toPlace.place, toPlace.turn, ahead.ball, head);
+  step.walk = lastSteps(toPlace, p.follow * request.ballVelocity);
+  if (head.p_RBall.x() < 0.0 && std::abs(toPlace.turn) < kTurned)
+    step.walk.velocity.translation = shortened(step.walk.velocity.translation, kBackwards);
   // Where the ball will be when the kick begins, and by how much it still rolls until contact.
   KickTo then = after(head.fromWalk ? delay : 0.0, request, walk);
   then.ball += (delay + head.contact) * request.ballVelocity;

@@ -2,6 +2,7 @@
 // follows the steps exactly or with a drift.
 #include "nonet/motion/kick_control.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -176,6 +177,42 @@ TEST_F(Control, TheLastStepsLeadToTheBeginFromAnywhere) {
       robot = robot * Pose2(kCycleTime * speed.translation + drift, kCycleTime * speed.rotation);
     }
     EXPECT_TRUE(began) << "trial " << trial;
+  }
+}
+
+// A point robot with its ball to be behind: from all around it turns away from the ball before it comes near,
+// and backs up to its place without overrunning the ball.
+TEST(KickControl, ComesToABallBehindWithoutTouchingIt) {
+  const SkillLibrary library(parseSkills(
+      "skill kick_back { kick { ball (-0.15m, 5cm) within (35mm, 30mm) direction 180deg within 15deg "
+      "distance 1m..3m contact 0.7s from stand } }",
+      "test.skl"));
+  const KickCatalogue catalogue(library, 0);
+  const WalkEngine walk(model::robotModel(0));  // it stands: the steps look ahead by nothing
+  const Vector2 ball(1.0, 2.0), target(4.0, 2.0);
+  const Vector2 fastest(0.5, 0.3);  // m/s
+  for (int bearing = -80; bearing <= 80; bearing += 20) {
+    KickControl control(catalogue, KickParameters{});
+    const double heading = toRadians(bearing);
+    Pose2 X_WR(ball - 0.5 * unitVector(heading), heading);
+    KickStep step;
+    double nearest = 1.0;
+    double time = 0.0;
+    for (; time < 5.0 && !step.begin; time += kCycleTime) {
+      KickTo request;
+      request.ball = X_WR.inverse() * ball;
+      request.target = X_WR.inverse() * target;
+      step = control.update(request, walk, step.inPlace ? 1.0 : 0.0);
+      const Pose2& v = step.walk.velocity;
+      const Vector2 way = kCycleTime * v.translation.cwiseMax(-fastest).cwiseMin(fastest);
+      X_WR = X_WR * Pose2(way, kCycleTime * std::clamp(v.rotation, -2.0, 2.0));
+      nearest = std::min(nearest, (X_WR.translation - ball).norm());
+    }
+    EXPECT_LT(time, 4.0) << bearing;
+    EXPECT_TRUE(step.begin) << bearing;
+    EXPECT_GT(nearest, 0.12) << bearing;
+    const Vector2 way = X_WR.rotate(Vector2(-1.0, 0.0));
+    EXPECT_GT(way.x(), std::cos(toRadians(15.0))) << bearing;  // its back to the target
   }
 }
 

@@ -24,6 +24,7 @@ void addSkillCommand(CLI::App& app, int& exitCode);
 void addSkillPlayCommand(CLI::App& skillCommand, int& exitCode);
 void addWalkReportCommand(CLI::App& app, int& exitCode);
 void addRiseReportCommand(CLI::App& app, int& exitCode);
+void addKickCommand(CLI::App& app, int& exitCode);
 void addKickReportCommand(CLI::App& app, int& exitCode);
 void addBallReportCommand(CLI::App& app, int& exitCode);
 void addEnvCommand(CLI::App& app, int& exitCode);

@@ -4,13 +4,29 @@
 // Needs: the catalogue, the ball. A kick whose skill has no curve `from ball` is never held up.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "nonet/model/kinematics.h"
 #include "nonet/model/robot_model.h"
+#include "nonet/motion/foot_curve.h"
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/motion/skill_library.h"
 
 namespace nonet::motion {
+
+/// The curve of a kick with the left foot, as far as the skill's text tells.
+struct PlannedCurve {
+  const Instruction* instruction = nullptr;
+  FootCurve curve;                     // planned; its origin is the ball, torso frame
+  bool meetsBall = true;               // false: it leads to the ball, and a swing right after it meets it
+  model::JointArray posture{};         // when it begins
+  Matrix3 R_LR = Matrix3::Identity();  // torso then -> level frame with the heading of the stand
+};
+
+/// How far inside the edges of the stance foot (of the kick with the left foot) the centre of mass is, m;
+/// negative beyond them.
+double insideStanceFoot(const model::RobotModel& model, const model::BodyPoses& bodies);
 
 class CurveCheck {
  public:
@@ -30,10 +46,15 @@ class CurveCheck {
   /// it is clear that the kick is not allowed: then `reached` is what is still possible.
   Result check(const KickOption& option, const Vector2& p_RBall) const;
 
+  /// What check() looks at, for a ball to the left of a kick with the left foot. Nothing: the kick has no
+  /// curve `from ball`.
+  std::optional<PlannedCurve> plan(const KickOption& option, const Vector2& p_RBall) const;
+
  private:
   // How the joints are, as far as the text tells, when the curve begins; of the kick with the left foot.
   struct Kick {
     const Instruction* curve = nullptr;
+    bool meetsBall = true;
     model::JointArray posture{};
   };
 

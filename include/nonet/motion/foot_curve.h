@@ -19,7 +19,8 @@ FootGoal mirroredGoal(FootGoal goal);
 
 class FootCurve {
  public:
-  static constexpr std::size_t kSteps = 24;  // in which the time that it takes is reckoned
+  static constexpr std::size_t kSteps = 24;     // in which the time that it takes is reckoned
+  static constexpr double kOfFullSpeed = 0.95;  // in the mean of a step: within it a joint's speed varies
 
   /// Through the points of `curve` as the left foot has them, or `mirrored`, from where the sole is (X_RFrom,
   /// torso frame). `origin`: what the points are relative to, torso frame, m.

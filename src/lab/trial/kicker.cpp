@@ -1,5 +1,6 @@
 #include "lab/trial/kicker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -9,6 +10,12 @@
 #include "nonet/team/behaviors.h"
 
 namespace nonet::lab {
+
+namespace {
+
+constexpr double kNearBall = 0.6;  // m, from where on motion can go around the ball by itself
+
+}  // namespace
 
 Kicker::Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick,
                bool stops)
@@ -34,9 +41,30 @@ Vector2 Kicker::facedTarget(const team::Situation& situation) const {
   return faced;
 }
 
+bool Kicker::liesBehind() const {
+  return std::any_of(motion.kicks.begin(), motion.kicks.end(), [&](const motion::KickOption& option) {
+    return option.name == kick_.view() && option.head.p_RBall.x() < 0.0;
+  });
+}
+
+// The team's behaviours go behind the ball to face its target. For a kick to the rear motion does all of the
+// last way.
+team::Action Kicker::turnRound(const world::WorldState& world) const {
+  motion::KickTo request;
+  request.ball = world.ball.p_RB;
+  request.ballVelocity = world.self.X_FR.inverse().rotate(world.ball.v_FB.head<2>());
+  request.target = world.self.X_FR.inverse() * p_FTarget_;
+  request.kick = kick_;
+  request.stops = stops_;
+  team::Action action(request, "turn round");
+  action.head = team::lookAtBall(world);
+  return action;
+}
+
 team::Action Kicker::operator()(const world::WorldState& world, const motion::MotionState& state) {
   motion = state;
   if (!world.ball.known || !world.self.localized || state.busy || state.rising) return {};
+  if (liesBehind() && world.ball.p_RB.norm() < kNearBall) return turnRound(world);
   team::Situation situation = team::assess(world, parameters_, state);
   situation.play = team::playTowards(situation, facedTarget(situation), team::KickUse::Clear);
   for (const auto& behavior : {team::goToBall, team::kick, team::goBehindBall}) {

@@ -27,6 +27,8 @@ class Kicker {
 
  private:
   Vector2 facedTarget(const team::Situation& situation) const;
+  bool liesBehind() const;
+  team::Action turnRound(const world::WorldState& world) const;
 
   team::TeamParameters parameters_;
   Vector2 p_FTarget_;

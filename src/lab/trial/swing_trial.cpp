@@ -13,6 +13,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
+#include "nonet/motion/curve_check.h"
 #include "nonet/motion/joint_control.h"
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/motion/skill_player.h"
@@ -75,6 +76,7 @@ struct SwingTrial::Implementation {
         catalogue(library, agent.robotType),
         stand(motion::WalkEngine::standAngles(
             model, agent.parameters.motion.sets.of(agent.parameters.motion.selection.standSet()))),
+        check(model, library, stand),
         control(model, agent.parameters.motion.control),
         player(model, library, stand),
         world(worldOf(quickSolver)) {
@@ -94,6 +96,21 @@ struct SwingTrial::Implementation {
   void readJoints() {
     for (const model::JointSpec& joint : model.joints())
       body.joints[model::index(joint.id)] = world.jointAngle(robot, joint.id);
+  }
+
+  // What curves are anchored by: how the torso stands, and the ball where it is believed to be (off as much
+  // as it was at the begin).
+  void perceive() {
+    const sim::ScenePose& torso = world.bodyPose(robot, model::BodyId::Torso);
+    const sim::Vector3f left = -torso.rotation.col(0);  // the server's bodies look along y
+    const sim::Vector3f forward = torso.rotation.col(1);
+    body.pitch = std::asin(std::clamp(-static_cast<double>(forward.z()), -1.0, 1.0));
+    body.roll = std::atan2(static_cast<double>(left.z()), static_cast<double>(torso.rotation(2, 2)));
+    body.torsoHeight = static_cast<double>(torso.position.z());
+    state.body = body;
+    state.ball.known = true;
+    state.ball.v_FB = ball().v_FB;
+    state.ball.p_RB = truePose(world, robot).inverse() * Vector2(ball().p_FB.head<2>() + p_WBelieved);
   }
 
   void step() {
@@ -122,10 +139,11 @@ struct SwingTrial::Implementation {
     targets.angles = body.joints;
     targets.stiffness.fill(1.0);
     direction = X_WR.rotation + option.head.direction + start.aim.turn;
-    state.body = body;
     motion::KickAim aim = start.aim;
     aim.ball += moved;
+    p_WBelieved = X_WR * aim.ball - ball().p_FB.head<2>();
     aim.distance = distance.value_or(aim.distance);
+    allowed = check.check(option, aim.ball).allows();
     player.start(kick, start.foot == model::Side::Right, targets.angles, aim);
   }
 
@@ -136,6 +154,7 @@ struct SwingTrial::Implementation {
   Swing run(const KickStart& start, const std::optional<double>& distance) {
     begin(start, distance);
     Swing swing;
+    if (!allowed) return swing;  // motion would not begin it
     Kick& result = swing.kick;
     double time = 0.0;
     double over = 0.0;  // s since the end of the skill
@@ -144,7 +163,10 @@ struct SwingTrial::Implementation {
     Vector2 from = ball().p_FB.head<2>();
     const Pose2 aim(from, direction);
     while (over < kStands && !settled && !result.fell) {
-      if (player.running()) player.update(state, targets);
+      if (player.running()) {
+        perceive();
+        player.update(state, targets);
+      }
       over += player.running() ? 0.0 : kCycleTime;
       const double before = ball().v_FB.norm();
       step();
@@ -177,6 +199,7 @@ struct SwingTrial::Implementation {
   motion::SkillLibrary library;
   motion::KickCatalogue catalogue;
   model::JointArray stand;
+  motion::CurveCheck check;
   motion::JointControl control;
   motion::SkillPlayer player;
   sim::World world;
@@ -185,8 +208,10 @@ struct SwingTrial::Implementation {
   world::WorldState state;
   motion::JointTargets targets;
   protocol::Effectors effectors;
-  Pose2 X_WR;              // when the kick began
-  double direction = 0.0;  // world, rad: where the ball should go
+  Pose2 X_WR;                             // when the kick began
+  Vector2 p_WBelieved = Vector2::Zero();  // ball as it was believed then, from where it was
+  double direction = 0.0;                 // world, rad: where the ball should go
+  bool allowed = true;                    // by the check of curves
 };
 
 SwingTrial::SwingTrial(const agent::AgentSettings& agent, const std::string& kick, bool quickSolver)
