@@ -31,8 +31,7 @@ bool stepEnds(const GaitState& gait, Side foot, const KickParameters& p) {
 }
 
 // Where to go first when the ball is to lie behind: there the robot turns without touching it.
-Vector2 turningPlace(const Vector2& place, double turn, const Vector2& ball, const KickHead& head) {
-  if (head.p_RBall.x() >= 0.0 || std::abs(turn) < kTurned) return place;
+Vector2 turningPlace(const Vector2& place, const Vector2& ball) {
   return ball + kTurnsAt * (place - ball).normalized();
 }
 
@@ -149,9 +148,11 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   KickTo ahead = after(p.coast, request, walk);
   ahead.ball += p.follow * (p.coast + delay + head.contact) * request.ballVelocity;
   Way toPlace = wayTo(*chosen_, ahead);
-  toPlace.place = turningPlace(toPlace.place, toPlace.turn, ahead.ball, head);
+  const bool backwards = head.p_RBall.x() < 0.0;
+  const bool turns = backwards && std::abs(toPlace.turn) >= kTurned;
+  if (turns) toPlace.place = turningPlace(toPlace.place, ahead.ball);
   step.walk = lastSteps(toPlace, p.follow * request.ballVelocity);
-  if (head.p_RBall.x() < 0.0 && std::abs(toPlace.turn) < kTurned)
+  if (backwards && !turns)
     step.walk.velocity.translation = shortened(step.walk.velocity.translation, kBackwards);
   // Where the ball will be when the kick begins, and by how much it still rolls until contact.
   KickTo then = after(head.fromWalk ? delay : 0.0, request, walk);

@@ -1,6 +1,7 @@
 #include "nonet/lab/optimize/curve_measures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -135,16 +136,24 @@ class Curve {
     return nearest;
   }
 
+  using Gaps =
+      std::array<double, FootCurve::kSteps + 1>;  // between foot and ball at the ends of the steps, m
+
+  Gaps gaps() {
+    Gaps gaps{};
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+      gaps[i] = nearestAt(static_cast<double>(i) / FootCurve::kSteps).gap;
+    return gaps;
+  }
+
   // The first share at which the foot touches, or the one at which it is nearest.
-  double contactShare() {
+  double contactShare(const Gaps& gaps) {
     double best = 0.0;
-    double least = nearestAt(0.0).gap;
-    for (std::size_t i = 1; i <= FootCurve::kSteps && least > 0.0; ++i) {
-      const double share = static_cast<double>(i) / FootCurve::kSteps;
-      const double gap = nearestAt(share).gap;
-      if (gap >= least) continue;
-      least = gap;
-      best = share;
+    double least = gaps[0];
+    for (std::size_t i = 1; i < gaps.size() && least > 0.0; ++i) {
+      if (gaps[i] >= least) continue;
+      least = gaps[i];
+      best = static_cast<double>(i) / FootCurve::kSteps;
     }
     if (least > 0.0) return best;
     double apart = std::max(0.0, best - 1.0 / FootCurve::kSteps);
@@ -166,13 +175,10 @@ class Curve {
 
   CurveContact contact(const CurveMeasures& measures) {
     CurveContact contact;
-    contact.clearance = nearestAt(0.0).gap;
-    contact.deepest = contact.clearance;
-    for (std::size_t i = 1; i <= FootCurve::kSteps; ++i) {
-      const double share = static_cast<double>(i) / FootCurve::kSteps;
-      contact.deepest = std::min(contact.deepest, nearestAt(share).gap);
-    }
-    contact.share = contactShare();
+    const Gaps distances = gaps();
+    contact.clearance = distances.front();
+    contact.deepest = *std::min_element(distances.begin(), distances.end());
+    contact.share = contactShare(distances);
     const Nearest nearest = nearestAt(contact.share);
     contact.gap = nearest.gap < kTouches ? 0.0 : nearest.gap;
     const double before = std::max(0.0, contact.share - kTinyShare);

@@ -10,9 +10,8 @@
 //              Every goal is a shot on target
 //   pass       in play, the ball goes 2 m or more from a player's touch to the next touch of another player,
 //              or out, and was no shot and no set piece; completed: that player is a mate
-//   goal       of whom the ball came last; of the shooter if it was a shot on target that the other team
-//   touched
-//              less than 3 s before without kicking it: deflected, no own goal
+//   goal       of whom the ball came last; deflected, it is the shooter's and no own goal: a shot on target
+//              that the other team touched less than 3 s before without kicking it
 //   save       the goalkeeper (number 1) is the next to touch a shot on target, and it does not become a goal
 //   possession share of the time in play in which a team was the last to touch the ball
 //   duel       robots of both teams on their feet within 0.7 m of the ball for 0.5 s or more; won by the team
