@@ -1,5 +1,8 @@
 #include "log_header.h"
 
+#include <stdexcept>
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +13,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kMark = "# nonet-log ";
 constexpr int kFormat = 1;
+
+/// Only whole numbers that fit: others the library would convert, with a result that the language leaves
+/// open.
+template <class Integer>
+void readInteger(const Json& json, const char* key, Integer& value) {
+  const Json& number = json.at(key);
+  const bool fits = number.is_number_unsigned()
+                        ? std::in_range<Integer>(number.get<std::uint64_t>())
+                        : number.is_number_integer() && std::in_range<Integer>(number.get<std::int64_t>());
+  if (!fits) throw std::out_of_range(fmt::format("{} is no whole number that fits", key));
+  number.get_to(value);
+}
 
 }  // namespace
 
@@ -41,13 +56,13 @@ std::optional<LogHeader> parseHeaderLine(std::string_view line, const std::strin
     LogHeader header;
     json.at("version").get_to(header.version);
     json.at("team").get_to(header.team);
-    json.at("unum").get_to(header.unum);
-    json.at("type").get_to(header.robotType);
-    json.at("seed").get_to(header.seed);
+    readInteger(json, "unum", header.unum);
+    readInteger(json, "type", header.robotType);
+    readInteger(json, "seed", header.seed);
     json.at("parameters").get_to(header.parameters);
     header.options = json.value("options", std::map<std::string, std::string>());
     return header;
-  } catch (const Json::exception& error) {
+  } catch (const std::exception& error) {
     throw LogError(fmt::format("{}: the header line cannot be read: {}", path, error.what()));
   }
 }

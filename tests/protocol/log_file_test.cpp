@@ -229,6 +229,21 @@ TEST_F(LogFile, ErrorsNameTheFile) {
   EXPECT_EQ(readAll(write("empty", "")).end, LogReader::End::Whole);
 }
 
+// The first was found by the fuzzer.
+TEST_F(LogFile, NumbersOfTheHeaderAreWholeAndFit) {
+  const auto errorWith = [this](const std::string& numbers) {
+    return errorOf(
+        write("log", R"(# nonet-log 1 {"version":"1","team":"A","parameters":"",)" + numbers + "}\n"));
+  };
+  for (const char* wrong : {R"("unum":3,"type":4,"seed":18446744073709551616)",
+                            R"("unum":3,"type":4,"seed":-1)", R"("unum":3,"type":4,"seed":1.5)",
+                            R"("unum":3,"type":4,"seed":"7")", R"("unum":4294967299,"type":4,"seed":7)",
+                            R"("unum":3,"type":-2147483649,"seed":7)", R"("unum":true,"type":4,"seed":7)"}) {
+    EXPECT_NE(errorWith(wrong).find(path("log") + ": the header line"), std::string::npos) << wrong;
+  }
+  EXPECT_EQ(errorWith(R"("unum":-3,"type":4,"seed":18446744073709551615)"), "");
+}
+
 TEST_F(LogFile, AFullDiskStopsTheRecordingOnly) {
   if (!fs::exists("/dev/full")) {
     GTEST_SKIP() << "no /dev/full here";
