@@ -82,6 +82,7 @@ int runEffectors(SoakArguments& arguments, Console& console) {
   console.end();
   const Json json = {{"cycles", result.cycles},
                      {"messages", result.messages},
+                     {"placed", result.placed},
                      {"entered", result.entered},
                      {"signature", fmt::format("{:016x}", result.signature)},
                      {"violations", result.violations},

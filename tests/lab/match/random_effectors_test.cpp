@@ -16,6 +16,7 @@ TEST(RandomEffectors, NothingWellFormedBreaksThePhysics) {
     const RandomEffectorsResult result = playRandomEffectors(settings);
     EXPECT_EQ(result.cycles, 1200);
     EXPECT_GT(result.messages, 4000);
+    EXPECT_EQ(result.placed > 0, settings.beams);
     EXPECT_EQ(result.violations, 0U) << "seed " << seed << ": " << result.messagesOfViolations.at(0);
   }
 }

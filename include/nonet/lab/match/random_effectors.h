@@ -17,13 +17,14 @@ struct RandomEffectorsSettings {
   std::uint64_t seed = 1;
   int players = 4;       // a side, 1..11
   double minutes = 1.0;  // of the server's time
-  bool beams = true;     // also beams, robots that come and go: it puts them into each other
+  bool beams = true;     // also what puts robots into each other: beams, second inits, to come and go
   int threads = 1;       // of the physics; the result does not depend on it
 };
 
 struct RandomEffectorsResult {
   long cycles = 0;
   long messages = 0;  // sent by agents
+  long placed = 0;    // of these: that put their robot elsewhere, or make a new one of it
   long entered = 0;   // robots that were built, after a leave again
   bool stopped = false;
   std::uint64_t signature = 0;  // of the simulation at the end
