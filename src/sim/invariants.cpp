@@ -45,7 +45,9 @@ void Invariants::checkRobot(const World& world, RobotHandle robot) {
     const double angle = toRadians(world.jointAngleDegrees(robot, joint.id));
     const double beyond = std::max(joint.low - angle, angle - joint.high);
     extremes_.overshoot = std::max(extremes_.overshoot, beyond);
-    if (beyond <= limits_.overshoot + limits_.overshootMargin) continue;  // false for a NaN too
+    const bool toe = joint.id == model::JointId::RLeg7 || joint.id == model::JointId::LLeg7;
+    const double most = toe ? limits_.toeOvershoot : limits_.overshoot;
+    if (beyond <= most + limits_.overshootMargin) continue;  // false for a NaN too
     violate(fmt::format("{} of robot {} is at {:.2f} deg, {:.2f} deg beyond its stop",
                         model::perceptorName(joint.id), robot, toDegrees(angle), toDegrees(beyond)));
   }

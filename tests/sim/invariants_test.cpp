@@ -68,6 +68,21 @@ TEST_F(BrokenWorld, JointFarBeyondItsStop) {
   EXPECT_NEAR(invariants.extremes().overshoot, 1.2 - 0.7854, 1e-3);
 }
 
+TEST_F(BrokenWorld, AToeHasABoundOfItsOwn) {
+  robot_ = world().addRobot(4);
+  World::BodyState state = world().bodyState(robot_, model::BodyId::RToe);
+  state.orientation = Eigen::AngleAxisd(-1.0, Eigen::Vector3d::UnitX()) * state.orientation;
+  world().setBodyState(robot_, model::BodyId::RToe, state);
+  EXPECT_THAT(checked().messages(), ElementsAre(HasSubstr("rlj7")));
+  for (const bool wide : {false, true}) {
+    InvariantLimits limits;
+    (wide ? limits.toeOvershoot : limits.overshoot) = 1.1;
+    Invariants invariants(limits);
+    invariants.check(simulation_);
+    EXPECT_EQ(invariants.violations(), wide ? 0U : 1U);
+  }
+}
+
 TEST(Invariants, LetAJointOvershootAsFarAsTheRealServersDo) {
   protocol::LogReader reader(NONET_TEST_DATA "/sim/overshoot_type3.log.gz");
   double farthest = 0.0;

@@ -17,6 +17,7 @@ struct InvariantLimits {
   /// outwards while the robot rises comes farther. The farthest in recordings of the real server is 17.51
   /// degrees (tests/data/sim/overshoot_type3.log.gz), a hip of type 3.
   double overshoot = 0.3056;      // rad
+  double toeOvershoot = 0.3056;   // rad; the toes' own bound, for who sends what no player of ours does
   double overshootMargin = 0.02;  // rad
   double lowestCentre = -0.05;    // m, of any body; the recordings' lowest is a foot at -0.01
   double highestCentre = 12.0;    // m; who is refused drops from 10 (server facts 1.3)
