@@ -7,24 +7,25 @@
 #include <span>
 
 #include "nonet/math/direction.h"
+#include "nonet/team/detour.h"
 
 namespace nonet::team {
 
 namespace {
 
-// Step of the directions that are compared: fine enough beside the width of a robot.
-constexpr double kHeadingStep = toRadians(15);
-
-struct Obstacle {
-  Vector2 p_F;
-  double room = 0.0;  // m
-};
+constexpr std::size_t kPosts = 4;
 
 struct Obstacles {
-  std::array<Obstacle, 2 * world::kTeamSize + 1> items{};
+  std::array<Disc, 2 * world::kTeamSize + 1 + kPosts> items{};
   std::size_t count = 0;
-  std::span<const Obstacle> all() const { return {items.data(), count}; }
+  void add(const Vector2& p_F, double room) { items[count++] = {p_F, room}; }
+  std::span<const Disc> all() const { return {items.data(), count}; }
 };
+
+void addPosts(Obstacles& obstacles, const world::FieldGeometry& field, double room) {
+  for (const double x : {-field.goalLine(), field.goalLine()})
+    for (const double y : {-field.post(), field.post()}) obstacles.add({x, y}, room);
+}
 
 Obstacles obstaclesFor(const world::WorldState& world, const NavigationParameters& parameters,
                        const Caution& caution) {
@@ -35,7 +36,10 @@ Obstacles obstaclesFor(const world::WorldState& world, const NavigationParameter
     if (player.fallen) room += parameters.fallenRoom;
     if (caution.duel && (player.X_FP.translation - ball).norm() < parameters.atBall)
       room = parameters.bodyRoom;
-    obstacles.items[obstacles.count++] = {player.X_FP.translation + parameters.lookAhead * player.v_FP, room};
+    // Where it will be when one comes to it.
+    const double away = (player.X_FP.translation - world.self.X_FR.translation).norm();
+    const double ahead = std::min(parameters.lookAhead, away / parameters.pace);
+    obstacles.add(player.X_FP.translation + ahead * player.v_FP, room);
   };
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {
     const auto i = static_cast<std::size_t>(unum);
@@ -43,83 +47,30 @@ Obstacles obstaclesFor(const world::WorldState& world, const NavigationParameter
       add(world.teammates[i], unum == caution.onBall ? caution.onBallRoom : caution.robots);
     add(world.opponents[i], caution.robots);
   }
-  if (caution.ball > 0.0 && world.ball.known) obstacles.items[obstacles.count++] = {ball, caution.ball};
+  if (caution.ball > 0.0 && world.ball.known) obstacles.add(ball, caution.ball);
   return obstacles;
 }
 
-// How far one can go in this direction before somebody's room begins; somebody whose room one is in already
-// bars the directions that lead nearer.
-double freeWay(const Vector2& start, const Vector2& direction, double length, double slip,
-               std::span<const Obstacle> obstacles, double share = 1.0) {
-  double free = length;
-  for (const Obstacle& obstacle : obstacles) {
-    const double room = share * obstacle.room;
-    const Vector2 offset = obstacle.p_F - start;
-    const double ahead = offset.dot(direction);
-    const double squared = offset.squaredNorm();
-    if (ahead <= 0.0) continue;
-    if (squared < room * room) {
-      // Along the edge of the room is allowed, so that one can slip past.
-      if (ahead > slip * std::sqrt(squared)) free = 0.0;
-      continue;
-    }
-    const double besides = squared - ahead * ahead;
-    if (besides >= room * room) continue;
-    free = std::min(free, ahead - std::sqrt(room * room - besides));
-  }
-  return std::max(free, 0.0);
-}
-
 // A place in somebody's room cannot be reached: the nearest one to be had instead.
-Vector2 outsideOfRooms(Vector2 place, const Vector2& start, std::span<const Obstacle> obstacles) {
-  for (const Obstacle& obstacle : obstacles) {
-    if ((place - obstacle.p_F).norm() >= obstacle.room) continue;
+Vector2 outsideOfRooms(Vector2 place, const Vector2& start, std::span<const Disc> obstacles) {
+  for (const Disc& obstacle : obstacles) {
+    if ((place - obstacle.p_F).norm() >= obstacle.radius) continue;
     const Vector2 towardsUs = start - obstacle.p_F;
-    if (towardsUs.norm() > 1e-6) place = obstacle.p_F + obstacle.room * towardsUs.normalized();
+    if (towardsUs.norm() > 1e-6) place = obstacle.p_F + obstacle.radius * towardsUs.normalized();
   }
   return place;
 }
 
-struct Way {
-  double heading = 0.0;
-  bool straight = true;
-  bool anywhere = true;  // false: barred on all sides
-};
-
-// The direction nearest to the wanted one that is clear; of two equal ones that which the robot faces more.
-Way chooseWay(const world::WorldState& world, const NavigationParameters& parameters,
-              const Vector2& p_FTarget, std::span<const Obstacle> obstacles) {
-  const Vector2 start = world.self.X_FR.translation;
-  const double wanted = headingTo(world, p_FTarget);
-  const double need = std::min((p_FTarget - start).norm(), parameters.horizon);
-  Way best;
-  best.heading = wanted;
-  if (freeWay(start, unitVector(wanted), need, parameters.slip, obstacles) >= need - 1e-9) return best;
-  best.straight = false;
-  double bestScore = -std::numeric_limits<double>::infinity();
-  const double facing = angleDifference(world.self.X_FR.rotation, wanted);
-  const int count = static_cast<int>(std::lround(kPi / kHeadingStep));
-  for (int i = -count; i < count; ++i) {
-    const double turn = i * kHeadingStep;
-    // Between two that stand close together rather than back out of a trap.
-    for (const double share : {1.0, parameters.narrow}) {
-      const double free = freeWay(start, unitVector(wanted + turn), std::min(need, parameters.freeWay),
-                                  parameters.slip, obstacles, share);
-      const double score = free - parameters.turnCost * std::abs(turn) -
-                           parameters.facingCost * std::abs(wrapAngle(turn - facing)) -
-                           (share < 1.0 ? parameters.narrowCost : 0.0);
-      if (free <= parameters.leastWay || score <= bestScore) continue;
-      bestScore = score;
-      best.heading = wrapAngle(wanted + turn);
-    }
-  }
-  best.anywhere = std::isfinite(bestScore);
-  return best;
+Detour wayTo(const world::WorldState& world, const NavigationParameters& parameters, const Vector2& p_FTarget,
+             Obstacles obstacles) {
+  addPosts(obstacles, world.field, parameters.bodyRoom);
+  const Facing facing{world.self.X_FR.rotation, parameters.turnCost};
+  return detour(world.self.X_FR.translation, p_FTarget, obstacles.all(), facing);
 }
 
-double roomLeft(const Vector2& start, double bodyRoom, std::span<const Obstacle> obstacles) {
+double roomLeft(const Vector2& start, double bodyRoom, std::span<const Disc> obstacles) {
   double left = std::numeric_limits<double>::infinity();
-  for (const Obstacle& obstacle : obstacles) left = std::min(left, (obstacle.p_F - start).norm() - bodyRoom);
+  for (const Disc& obstacle : obstacles) left = std::min(left, (obstacle.p_F - start).norm() - bodyRoom);
   return left;
 }
 
@@ -134,26 +85,30 @@ motion::MotionRequest walkTo(const world::WorldState& world, const NavigationPar
                              const Pose2& X_FWanted, const Caution& caution) {
   const Vector2 start = world.self.X_FR.translation;
   const Obstacles obstacles = obstaclesFor(world, parameters, caution);
-  const Pose2 X_FTarget(outsideOfRooms(X_FWanted.translation, start, obstacles.all()), X_FWanted.rotation);
+  // Nobody gives way on the way to the ball.
+  Pose2 X_FTarget = X_FWanted;
+  if (!caution.duel) X_FTarget.translation = outsideOfRooms(X_FWanted.translation, start, obstacles.all());
   const double distance = (X_FTarget.translation - start).norm();
   const bool arrived = distance < parameters.closeEnough;
-  const bool crowded = roomLeft(start, parameters.bodyRoom, obstacles.all()) < parameters.crowded;
+  const bool crowded =
+      !caution.duel && roomLeft(start, parameters.bodyRoom, obstacles.all()) < parameters.crowded;
   const Pose2 X_RF = world.self.X_FR.inverse();
   if (arrived && !crowded) {
     const motion::WalkTo last{X_RF * X_FTarget};
     if (std::abs(last.target.rotation) < parameters.facing) return motion::Stand{};
     return last;
   }
-  const Way way = chooseWay(world, parameters, X_FTarget.translation, obstacles.all());
-  if (!way.anywhere) return motion::Stand{};
+  const Detour way = wayTo(world, parameters, X_FTarget.translation, obstacles);
+  const double direction = directionOf(way.next - start);
   if (way.straight) {
-    const double heading = distance > parameters.headingDistance ? way.heading : X_FTarget.rotation;
+    const double heading = distance > parameters.headingDistance ? direction : X_FTarget.rotation;
     return motion::WalkTo{X_RF * Pose2(X_FTarget.translation, heading)};
   }
-  // Around somebody: a step at a time, slowly where it is narrow. Giving way to somebody close needs no turn.
-  const double step = crowded ? parameters.slowStep : parameters.detourStep;
-  const Vector2 next = start + step * unitVector(way.heading);
-  const double heading = crowded ? world.self.X_FR.rotation : way.heading;
+  // Around somebody: as fast as to a place so far ahead, slowly where it is narrow. Giving way to somebody
+  // close needs no turn.
+  const double step = crowded ? parameters.slowStep : std::max(way.length, parameters.detourStep);
+  const Vector2 next = start + step * unitVector(direction);
+  const double heading = crowded ? world.self.X_FR.rotation : direction;
   return motion::WalkTo{X_RF * Pose2(next, heading), crowded};
 }
 

@@ -15,7 +15,7 @@ constexpr int kPlacesAside = 3;  // in the goal, on either side of the middle
 double scores(const world::WorldState& world, const motion::KickHead& kick, const Vector2& way,
               const ShotParameters& p) {
   const double distance = way.norm();
-  if (distance >= p.reach * kick.longest) return 0.0;
+  if (distance >= (kick.scales ? p.low : p.reach * kick.longest)) return 0.0;
   return hitsGoal(world, directionOf(way), p.spread) * kick.fliesBelow(world.field.goalHeight, distance);
 }
 
@@ -32,13 +32,15 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
     for (const motion::KickOption& kick : kicks) {
-      if (kick.foot != model::Side::Left || !kick.head.isStraight() || kick.head.scales) continue;
+      if (kick.foot != model::Side::Left || !kick.head.isStraight()) continue;
       const double hits = scores(world, kick.head, place - ball, p);
       if (hits < p.hits) continue;
       const double lane = laneWidth(world, ball, place, p.widest, kick.head);
       if (lane < p.lane || hits * lane <= most) continue;
       most = hits * lane;
-      best = Shot{place, kick.name};
+      // A kick that goes as far as it is asked to is asked for all.
+      const Vector2 asked = ball + kick.head.longest * (place - ball).normalized();
+      best = Shot{kick.head.scales ? asked : place, kick.name};
     }
   }
   return best;

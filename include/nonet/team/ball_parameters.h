@@ -157,6 +157,7 @@ struct ShotParameters {
   double hits = 0.6;
   double reach = 0.85;
   double postMargin = 0.15;
+  double low = 3.5;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -189,6 +190,12 @@ struct ShotParameters {
     visit({"reach", Unit::None, {0, 1}, fixed, "Share of a kick's distance in which the ball is still fast"},
           self.reach);
     visit({"postMargin", Unit::Metre, {0, 1}, fixed, "Aim this far inside the posts"}, self.postMargin);
+    visit({"low",
+           Unit::Metre,
+           {0, 10},
+           search(0, 5),
+           "From this near also with soft kicks, that stay below the bar; 0: never"},
+          self.low);
   }
 };
 
@@ -224,6 +231,7 @@ struct BallHandlingParameters {
   double awaitMargin = 1.5;
   double awaitAside = 0.3;
   double kickLead = 0.0;
+  double wayRoom = 0.5;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -378,6 +386,8 @@ struct BallHandlingParameters {
     visit(
         {"waitRoom", Unit::Metre, {0, 2}, fixed, "Set piece: room that the waiting taker leaves to the ball"},
         self.waitRoom);
+    visit({"wayRoom", Unit::Metre, {0, 2}, search(0.4, 1), "Room left to others on the way to the ball"},
+          self.wayRoom);
   }
 };
 

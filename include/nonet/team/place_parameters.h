@@ -175,18 +175,12 @@ struct ChargingParameters {
 /// Going somewhere among others (navigation.h).
 struct NavigationParameters {
   double lookAhead = 0.5;
-  double horizon = 2.0;
+  double pace = 1.2;
   double fallenRoom = 0.2;
   double atBall = 0.6;
   double bodyRoom = 0.35;
-  double slip = 0.2;
-  double freeWay = 1.0;
-  double leastWay = 0.05;
-  double turnCost = 0.4;
-  double facingCost = 0.1;
-  double narrow = 0.72;
-  double narrowCost = 0.3;
   double headingDistance = 0.7;
+  double turnCost = 0.2;
   double closeEnough = 0.12;
   double facing = 0.25;
   double crowded = 0.1;
@@ -196,36 +190,25 @@ struct NavigationParameters {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
-    visit({"lookAhead", Unit::Second, {0, 5}, fixed, "Others are thought to walk on for this time"},
+    visit({"lookAhead",
+           Unit::Second,
+           {0, 5},
+           fixed,
+           "Others are thought to walk on until one comes to them, but no longer than this"},
           self.lookAhead);
-    visit({"horizon", Unit::Metre, {0.1, 20}, fixed, "Length of the way that must be clear"}, self.horizon);
+    visit({"pace", Unit::MetrePerSecond, {0.1, 5}, fixed, "At which one comes to them"}, self.pace);
     visit({"fallenRoom", Unit::Metre, {0, 2}, fixed, "More room around somebody who lies on the ground"},
           self.fallenRoom);
     visit({"atBall", Unit::Metre, {0, 3}, fixed, "Robots nearer to the ball take part in the duel"},
           self.atBall);
     visit({"bodyRoom", Unit::Metre, {0, 2}, fixed, "Between two torsos that just touch when both walk"},
           self.bodyRoom);
-    visit({"slip",
-           Unit::None,
-           {0, 1},
-           fixed,
-           "In somebody's room: a direction is barred when its cosine to that robot is larger"},
-          self.slip);
-    visit({"freeWay", Unit::Metre, {0.1, 10}, fixed, "Ways around are compared over this length"},
-          self.freeWay);
-    visit({"leastWay", Unit::Metre, {0, 1}, fixed, "A way around with less than this free is barred"},
-          self.leastWay);
-    visit({"turnCost", Unit::Metre, {0, 5}, fixed, "Free way that a detour of 1 rad must be worth"},
-          self.turnCost);
-    visit({"facingCost",
+    visit({"turnCost",
            Unit::Metre,
            {0, 5},
-           fixed,
-           "Free way that a turn of the robot by 1 rad must be worth"},
-          self.facingCost);
-    visit({"narrow", Unit::None, {0, 1}, fixed, "Share of the usual room in a narrow passage"}, self.narrow);
-    visit({"narrowCost", Unit::Metre, {0, 5}, fixed, "Free way that a narrow passage must be worth"},
-          self.narrowCost);
+           search(0, 1),
+           "A way around that is longer by this needs 1 rad of turn less"},
+          self.turnCost);
     visit({"headingDistance",
            Unit::Metre,
            {0, 5},
@@ -240,7 +223,11 @@ struct NavigationParameters {
            fixed,
            "Beside bodyRoom: gives way when less than this is left to somebody"},
           self.crowded);
-    visit({"detourStep", Unit::Metre, {0.05, 5}, fixed, "Distance of the next point on a way around"},
+    visit({"detourStep",
+           Unit::Metre,
+           {0.05, 5},
+           fixed,
+           "On a way around one walks at least as fast as to a place so far ahead"},
           self.detourStep);
     visit({"slowStep",
            Unit::Metre,

@@ -17,7 +17,7 @@ std::optional<Action> waitAtBall(const Situation& s) {
 std::optional<Action> goToBall(const Situation& s) {
   if (!s.play || s.play->ball.norm() < s.parameters.ball.handleDistance) return std::nullopt;
   Caution caution;
-  caution.robots = s.parameters.avoidDistance;
+  caution.robots = s.parameters.ball.wayRoom;
   caution.duel = true;
   const Pose2 place = s.play->placeBehind(s.parameters.ball.behindBall);
   Action action(walkTo(s.world, s.parameters.navigation, place, caution), "from afar");
