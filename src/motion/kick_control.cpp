@@ -148,7 +148,7 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   KickTo ahead = after(p.coast, request, walk);
   ahead.ball += p.follow * (p.coast + delay + head.contact) * request.ballVelocity;
   Way toPlace = wayTo(*chosen_, ahead);
-  const bool backwards = head.p_RBall.x() < 0.0;
+  const bool backwards = head.isBackward();
   const bool turns = backwards && std::abs(toPlace.turn) >= kTurned;
   if (turns) toPlace.place = turningPlace(toPlace.place, ahead.ball);
   step.walk = lastSteps(toPlace, p.follow * request.ballVelocity);

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "nonet/model/ball.h"
+
 namespace nonet::motion {
 
 using model::JointId;
+using model::kBallRadius;
 using model::Side;
 
 namespace {
 
 // A skill that jumps in a circle without taking time must not hang the robot.
 constexpr int kMostInstructionsPerCycle = 1000;
-constexpr double kBallRadius = 0.042;     // m, server facts 3.3
 constexpr double kShortestMove = 0.005;   // s
 constexpr double kNoStretch = 1e-6;       // share
 constexpr double kKickedBall = 0.7;       // m/s

@@ -80,6 +80,8 @@ struct KickHead {
   bool serves(int robotType) const { return ((types >> robotType) & 1U) != 0; }
   /// The ball goes where the robot faces, give or take what can be varied; otherwise to the side.
   bool isStraight() const { return std::abs(direction) <= turn; }
+  /// The ball lies behind the robot: a kick with the heel.
+  bool isBackward() const { return p_RBall.x() < 0.0; }
   /// The probability that the ball is lower than `height` (m) so far (m) from where it lay. Its first flight
   /// is a parabola; a ball that has landed does not rise so high again.
   double fliesBelow(double height, double distance) const;

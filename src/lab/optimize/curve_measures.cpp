@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "nonet/model/ball.h"
 #include "nonet/model/kinematics.h"
 #include "nonet/motion/limbs.h"
 
@@ -16,7 +17,7 @@ using motion::FootCurve;
 
 namespace {
 
-constexpr double kRadius = 0.042;    // m, of the ball (server facts 3.3)
+constexpr double kRadius = model::kBallRadius;
 constexpr double kTouches = 1e-5;    // m
 constexpr double kTinyShare = 1e-4;  // of the curve, over which the foot's speed is taken
 constexpr int kHalvings = 20;        // of a step, to find the contact in it

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include "nonet/model/ball.h"
+
 namespace nonet::lab {
 
 namespace {
 
+using model::kBallRadius;
 using model::Side;
 using motion::MotionRequest;
 
-constexpr double kBallRadius = 0.042;
 constexpr double kSure = 0.01;        // m by which the ball must meet the robot
 constexpr double kLongestDive = 4.0;  // s
 constexpr double kLongestRise = 12.0;

@@ -43,7 +43,7 @@ Vector2 Kicker::facedTarget(const team::Situation& situation) const {
 
 bool Kicker::liesBehind() const {
   return std::any_of(motion.kicks.begin(), motion.kicks.end(), [&](const motion::KickOption& option) {
-    return option.name == kick_.view() && option.head.p_RBall.x() < 0.0;
+    return option.name == kick_.view() && option.head.isBackward();
   });
 }
 

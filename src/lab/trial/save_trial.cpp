@@ -6,15 +6,17 @@
 #include "nonet/lab/trial/game_trial.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/model/ball.h"
 #include "nonet/team/goalie.h"
 
 namespace nonet::lab {
 
 namespace {
 
+using model::kBallRadius;
+
 const Vector2 kGoal(-15.0, 0.0);  // the middle of the line
 constexpr double kHalfGoal = 1.05;
-constexpr double kBallRadius = 0.042;
 constexpr double kClear = 0.02;      // m
 constexpr double kHighest = 0.75;    // m, of a shot at the line
 constexpr double kSlowest = 1.5;     // m/s, of a shot at the line
