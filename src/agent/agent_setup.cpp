@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "nonet/agent/data_folder.h"
 #include "nonet/config/assignment.h"
 #include "nonet/config/parameters.h"
 #include "nonet/math/random.h"
@@ -24,14 +25,14 @@ constexpr std::string_view kStartMark = "start ";  // x, y in m, heading in rad,
 std::string skillFolderIn(const std::string& dataFolder) {
   std::string folder = dataFolder + "/skills";
   if (!motion::skillFiles(folder).empty()) return folder;
-  throw config::ParameterError(folder + ": there are no skills (*.skl): is this the folder of Nonet's data?");
+  throw DataError(folder + ": there are no skills (*.skl): is this the folder of Nonet's data?");
 }
 
 std::string learnedFileIn(const std::string& dataFolder, int robotType) {
   std::string file = dataFolder + "/params/type" + std::to_string(robotType) + ".toml";
   if (std::filesystem::exists(file)) return file;
-  throw config::ParameterError(file + ": is missing: it holds the learned values of robot type " +
-                               std::to_string(robotType));
+  throw DataError(file + ": is missing: it holds the learned values of robot type " +
+                  std::to_string(robotType));
 }
 
 motion::PlaySkill skillOf(const AgentSettings& settings, const std::string& name, bool mirrored) {

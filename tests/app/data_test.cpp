@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "nonet/app/data_folder.h"
+#include "nonet/agent/data_folder.h"
 
 #include "app/program.h"
 
@@ -36,20 +36,20 @@ class Data : public testing::Test {
 
 TEST_F(Data, IsFoundAboveTheExecutableAndInItsInstallation) {
   const fs::path tree = make("tree");
-  EXPECT_EQ(findData(tree / "build" / "dev" / "nonet", "/none"), tree);
+  EXPECT_EQ(agent::findData(tree / "build" / "dev" / "nonet", "--data", "/none"), tree);
   const fs::path installed = make("usr/share/nonet");
-  EXPECT_EQ(findData(folder.file("usr/bin/nonet"), "/none"), installed);
-  EXPECT_EQ(findData("/none/nonet", tree), tree) << "the source tree comes last";
+  EXPECT_EQ(agent::findData(folder.file("usr/bin/nonet"), "--data", "/none"), installed);
+  EXPECT_EQ(agent::findData("/none/nonet", "--data", tree), tree) << "the source tree comes last";
 }
 
 TEST_F(Data, IsMissedWithTheRemedy) {
   fs::create_directories(folder.file("lone/skills"));  // half of it does not count
   try {
-    findData(folder.file("lone/nonet"), "/none");
+    agent::findData(folder.file("lone/nonet"), "--data", "/none");
     FAIL();
   } catch (const std::exception& error) {
     EXPECT_THAT(error.what(), HasSubstr(folder.file("lone/nonet")));
-    EXPECT_THAT(error.what(), HasSubstr("NONET_DATA"));
+    EXPECT_THAT(error.what(), HasSubstr("NONET_DATA or --data"));
   }
 }
 
