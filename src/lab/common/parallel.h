@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -15,7 +16,8 @@
 namespace nonet::lab {
 
 /// Calls job(0) ... job(count - 1). `threads` 0: as many as there are processors. After an exception no job
-/// begins any more; the first one is thrown again here.
+/// begins any more; the first one is thrown again here. Threads that the system does not give are done
+/// without.
 template <class Job>
 void inParallel(int count, int threads, const Job& job) {
   const int workers =
@@ -33,7 +35,11 @@ void inParallel(int count, int threads, const Job& job) {
     }
   };
   std::vector<std::thread> others;
-  for (int i = 1; i < workers; ++i) others.emplace_back(work);
+  try {
+    for (int i = 1; i < workers; ++i) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // Fewer of them do the same work.
+  }
   work();
   for (std::thread& other : others) other.join();
   if (failure) std::rethrow_exception(failure);
