@@ -33,19 +33,20 @@ unsigned long callsByOde() {
 
 }  // namespace nonet::sim::ode_kernels
 
-// ---- ODE's names for them; the template argument is the distance between the numbers of `d` and `b`.
+// ---- ODE's names for them; the template argument is the distance between the numbers of `d` and `b`. All
+// else in the modules is hidden from other libraries, these are for ODE to find.
 
 namespace kernels = nonet::sim::ode_kernels;
 
 template <unsigned DStride>
-void factorMatrixAsLDLT(double* a, double* d, unsigned n, unsigned skip);
+[[gnu::visibility("default")]] void factorMatrixAsLDLT(double* a, double* d, unsigned n, unsigned skip);
 template <unsigned BStride>
-void solveL1Straight(const double* l, double* b, unsigned n, unsigned skip);
+[[gnu::visibility("default")]] void solveL1Straight(const double* l, double* b, unsigned n, unsigned skip);
 template <unsigned BStride>
-void solveL1Transposed(const double* l, double* b, unsigned n, unsigned skip);
+[[gnu::visibility("default")]] void solveL1Transposed(const double* l, double* b, unsigned n, unsigned skip);
 
 template <>
-void factorMatrixAsLDLT<1>(double* a, double* d, unsigned n, unsigned skip) {
+[[gnu::visibility("default")]] void factorMatrixAsLDLT<1>(double* a, double* d, unsigned n, unsigned skip) {
   ++kernels::calls;
   kernels::factorLdlt(a, d, n, skip);
   kernels::current.l = a;
@@ -53,12 +54,14 @@ void factorMatrixAsLDLT<1>(double* a, double* d, unsigned n, unsigned skip) {
   kernels::current.blocks.read(a, n, skip);
 }
 template <>
-void solveL1Straight<1>(const double* l, double* b, unsigned n, unsigned skip) {
+[[gnu::visibility("default")]] void solveL1Straight<1>(const double* l, double* b, unsigned n,
+                                                       unsigned skip) {
   ++kernels::calls;
   kernels::solveL1(l, b, n, skip, kernels::blocksOf(l, n, skip));
 }
 template <>
-void solveL1Transposed<1>(const double* l, double* b, unsigned n, unsigned skip) {
+[[gnu::visibility("default")]] void solveL1Transposed<1>(const double* l, double* b, unsigned n,
+                                                         unsigned skip) {
   ++kernels::calls;
   kernels::solveL1Transposed(l, b, n, skip, kernels::blocksOf(l, n, skip));
 }
