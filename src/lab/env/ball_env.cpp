@@ -56,7 +56,7 @@ class BallEnv : public Env {
     for (int i = 0; i < kCycles; ++i) trial_->step();
     EnvStep result = judge();
     if (!trial_->game().down(0)) return result;
-    return {result.reward - kFall, true};
+    return {result.reward - kFall, true, false};
   }
 
   // Robot frame: ball, its speed, the way from the ball to its target; the robot's speed and lean; how long
@@ -134,8 +134,9 @@ class DribbleEnv final : public BallEnv {
     const bool away = aside > path_.width || apart > path_.keep;
     const double reward = made - made_ - (away ? kAway : 0.0);
     made_ = made;
-    const bool over = made > path_.length() || trial().game().time() > kLongest;
-    return {reward, over || apart > kGone || aside > kGone || !trial().playsOn()};
+    const bool over = made > path_.length() || apart > kGone || aside > kGone || !trial().playsOn();
+    const bool timeUp = !over && trial().game().time() > kLongest;
+    return {reward, over || timeUp, timeUp};
   }
 
   BallPath path_;
@@ -156,7 +157,7 @@ class ReceiveEnv final : public BallEnv {
     const bool over = trial().game().time() > kLongest || !trial().playsOn();
     const ReceiveResult result = measureReceive(trial().track(), ReceiveRule{});
     if (!result.held && !over) return {};
-    return {result.held ? 1.0 : -std::min(result.rebound, 1.0), true};
+    return {result.held ? 1.0 : -std::min(result.rebound, 1.0), true, false};
   }
 };
 

@@ -1,7 +1,9 @@
 #include "nonet/lab/env/env.h"
 
+#include <algorithm>
 #include <array>
-#include <stdexcept>
+#include <cmath>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -29,42 +31,71 @@ std::unique_ptr<Env> makeEnv(std::string_view task, const EnvSettings& settings)
     if (entry.name == task) return entry.make(settings);
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
   }
-  throw std::runtime_error(fmt::format("unknown environment '{}': use one of {}", task, known));
+  throw EnvError(fmt::format("unknown environment '{}': use one of {}", task, known));
 }
 
 EnvBatch::EnvBatch(std::string_view task, const EnvSettings& settings, int count, int threads,
-                   std::uint64_t seed)
-    : threads_(threads), seed_(seed) {
-  if (count < 1) throw std::runtime_error("a batch needs at least one environment");
+                   std::uint64_t seed) {
+  if (count < 1) throw EnvError("a batch needs at least one environment");
+  const int most = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+  threads_ = std::clamp(most, 1, count);
   for (int i = 0; i < count; ++i) envs_.push_back({makeEnv(task, settings), 0});
   observation_.resize(size() * observations());
+  lastObservation_.resize(observation_.size());
   rewards_.resize(size());
   done_.resize(size());
-  inParallel(count, threads_, [&](int i) { begin(static_cast<std::size_t>(i)); });
+  timeUp_.resize(size());
+  reset(seed);
+}
+
+void EnvBatch::reset(std::uint64_t seed) {
+  seed_ = seed;
+  inParallel(static_cast<int>(size()), threads_, [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    envs_[i].episode = 0;
+    begin(i);
+    std::ranges::copy(of(observation_, i), of(lastObservation_, i).begin());
+    rewards_[i] = 0.0F;
+    done_[i] = timeUp_[i] = 0;
+  });
+}
+
+std::span<float> EnvBatch::of(std::vector<float>& observations, std::size_t i) const {
+  return std::span(observations).subspan(i * this->observations(), this->observations());
 }
 
 // The seed of an episode depends on the environment's number and the episode's only.
 void EnvBatch::begin(std::size_t i) {
   Entry& entry = envs_[i];
   entry.env->reset(Random(seed_).fork(i).fork(entry.episode++).next());
-  entry.env->observe(std::span(observation_).subspan(i * observations(), observations()));
+  entry.env->observe(of(observation_, i));
+}
+
+void EnvBatch::step(std::size_t i, std::span<const float> action) {
+  const EnvStep step = envs_[i].env->step(action);
+  rewards_[i] = static_cast<float>(step.reward);
+  done_[i] = step.done ? 1 : 0;
+  timeUp_[i] = step.done && step.timeUp ? 1 : 0;
+  envs_[i].env->observe(of(lastObservation_, i));
+  if (step.done) {
+    begin(i);
+  } else {
+    std::ranges::copy(of(lastObservation_, i), of(observation_, i).begin());
+  }
 }
 
 void EnvBatch::step(std::span<const float> actions) {
-  if (actions.size() != size() * this->actions())
-    throw std::runtime_error(
-        fmt::format("{} actions given, {} needed", actions.size(), size() * this->actions()));
+  const std::size_t width = this->actions();
+  if (actions.size() != size() * width)
+    throw EnvError(fmt::format("{} actions given, {} needed", actions.size(), size() * width));
+  const auto bad = std::ranges::find_if(actions, [](float action) { return std::isnan(action); });
+  if (bad != actions.end()) {
+    const auto at = static_cast<std::size_t>(bad - actions.begin());
+    throw EnvError(fmt::format("action {} of environment {} is not a number", at % width, at / width));
+  }
   inParallel(static_cast<int>(size()), threads_, [&](int number) {
     const auto i = static_cast<std::size_t>(number);
-    Entry& entry = envs_[i];
-    const EnvStep step = entry.env->step(actions.subspan(i * this->actions(), this->actions()));
-    rewards_[i] = static_cast<float>(step.reward);
-    done_[i] = step.done ? 1 : 0;
-    if (step.done) {
-      begin(i);
-    } else {
-      entry.env->observe(std::span(observation_).subspan(i * observations(), observations()));
-    }
+    step(i, actions.subspan(i * width, width));
   });
 }
 

@@ -57,8 +57,9 @@ class RunEnv final : public Env {
     const double way = place.x() - std::abs(place.y());
     const double reward = way - way_;
     way_ = way;
-    if (trial_->down()) return {reward - kFall, true};
-    return {reward, trial_->time() - begin_ > kLongest};
+    if (trial_->down()) return {reward - kFall, true, false};
+    const bool timeUp = trial_->time() - begin_ > kLongest;
+    return {reward, timeUp, timeUp};
   }
 
   // Angles from the stand in rad, speeds in 0.1 rad/s, lean, gyro, accelerometer in g, feet.
