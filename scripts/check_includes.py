@@ -17,6 +17,7 @@ MODULES = {
     "agent": CHAIN[:7],
     "sim": ["math", "config", "model", "protocol"],
     "lab": CHAIN + ["sim"],
+    "env": CHAIN + ["sim", "lab"],
     "app": CHAIN + ["sim", "lab"],
 }
 # Sub-folder: the sub-folders that it may include. TOP is the module's own folder.

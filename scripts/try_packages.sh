@@ -32,7 +32,7 @@ build() {
   local where=$1 generator=$2
   shift 2
   cmake --preset release -B "$where" "$@" >"$folder/cmake.log"
-  cmake --build "$where" --target nonet >"$folder/build.log"
+  cmake --build "$where" --target nonet nonet_env >"$folder/build.log"
   (cd "$where" && cpack -G "$generator" >"$folder/cpack.log")
 }
 
