@@ -22,7 +22,9 @@ for check in "${checks[@]}"; do
       python3 scripts/check_citations.py
       ;;
     scripts)
-      python3 scripts/screen.py --self-test
+      for script in screen nonet_env env_example; do
+        PYTHONDONTWRITEBYTECODE=1 python3 "scripts/$script.py" --self-test
+      done
       ;;
     tidy)
       [ -f build/dev/compile_commands.json ] || cmake --preset dev >/dev/null

@@ -13,16 +13,18 @@ one row. An episode that has ended is followed by the next at once: the observat
 `info["final_obs"]`, there if any has ended, holds the matrix with the last observations of those that ended.
 
     python3 nonet_env.py --list              the tasks
-    python3 nonet_env.py run --bench 5       steps a second of one core
+    python3 nonet_env.py run --bench 5       steps a second of one core; --pipe build/release/nonet: over a pipe as well
     python3 nonet_env.py --self-test         the library is searched for as below; without one only this file is tested
 
 The library is NONET_ENV_LIBRARY, or that of the installation or source tree that this file lies in, or the system's."""
 import argparse
 import array
 import ctypes
+import json
 import os
 import pathlib
 import random
+import subprocess
 import sys
 import time
 
@@ -223,20 +225,103 @@ class VectorEnv:
             self.close()
 
 
-def bench(env, seconds):
-    """Steps a second of processor time, all threads together, with random actions: those of `nonet env --bench`, but
-    drawn before the clock runs."""
+def _plain(values):
+    return [_plain(value) if hasattr(value, "__len__") else float(value) for value in values]
+
+
+class PipeEnv:
+    """The same over standard input and output of `nonet env`, for those who cannot load a library, and to compare with:
+    only what a step needs. Rows of numbers as in VectorEnv without numpy; an end is not told from time that is up."""
+
+    def __init__(self, nonet, task, envs=1, seed=1, options=()):
+        command = [nonet, "env", task, "--envs", str(envs), "--seed", str(seed), *options]
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        line = self._process.stdout.readline()
+        if not line:
+            self.close()
+            raise Error(f"{' '.join(command)}: no answer")
+        header = json.loads(line)
+        self.num_envs, self.seconds_per_step = header["envs"], header["seconds_per_step"]
+        self.observation_size, self.action_size = header["observations"], header["actions"]
+        self.first_observations = self._matrix(self.observation_size)
+
+    def _read(self, size):
+        data = self._process.stdout.read(size)
+        if len(data) != size:
+            raise Error("nonet env has ended")
+        return data
+
+    def _matrix(self, columns):
+        flat = array.array("f", self._read(4 * self.num_envs * columns))
+        return [flat[row * columns:(row + 1) * columns] for row in range(self.num_envs)]
+
+    def step(self, actions):
+        """Observations, rewards, ends."""
+        self._process.stdin.write(array.array("f", [number for row in actions for number in row]).tobytes())
+        self._process.stdin.flush()
+        return self._matrix(self.observation_size), [row[0] for row in self._matrix(1)], self._read(self.num_envs)
+
+    def processor_time(self):
+        """s, of the program alone."""
+        fields = pathlib.Path(f"/proc/{self._process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def close(self):
+        self._process.stdin.close()
+        self._process.stdout.close()
+        self._process.wait()
+
+
+def _random_actions(env):
     draw = random.Random(1)
-    actions = [[[draw.uniform(-0.3, 0.3) for _ in range(env.action_size)] for _ in range(env.num_envs)]
-               for _ in range(64)]
-    if numpy is not None:
-        actions = [numpy.array(matrix, dtype=numpy.float32) for matrix in actions]
-    env.reset()
-    begin, steps = time.process_time(), 0
-    while (used := time.process_time() - begin) < seconds:
-        env.step(actions[steps // env.num_envs % len(actions)])
-        steps += env.num_envs
-    return steps / used
+    return [[[draw.uniform(-0.3, 0.3) for _ in range(env.action_size)] for _ in range(env.num_envs)]
+            for _ in range(64)]
+
+
+class _Meter:
+    """Steps a second of processor time, and of the clock on the wall."""
+
+    def __init__(self, env, processor_time):
+        self.env, self.processor_time = env, processor_time
+        self.batches, self.used, self.waited = 0, 0.0, 0.0
+
+    def run(self, actions, seconds):
+        begin, wall = self.processor_time(), time.perf_counter()
+        while (used := self.processor_time() - begin) < seconds:
+            for _ in range(8):
+                self.env.step(actions[self.batches % len(actions)])
+                self.batches += 1
+        self.used += used
+        self.waited += time.perf_counter() - wall
+
+    def report(self, name):
+        rate = self.batches * self.env.num_envs / self.used
+        print(f"{name:<8} {rate:.0f} steps a second of one core, {rate * self.env.seconds_per_step:.0f} times real time; "
+              f"{self.batches * self.env.num_envs / self.waited:.0f} a second of the clock")
+
+
+def bench(arguments):
+    """The library, and with --pipe `nonet env` in turn with it: the same actions, a second each."""
+    options = ["--type", str(arguments.type), "--threads", str(arguments.threads)] + ["--quick"] * arguments.quick
+    env = VectorEnv(arguments.task, arguments.envs, threads=arguments.threads, robot_type=arguments.type,
+                    quick=arguments.quick)
+    actions = _random_actions(env)
+    meters = {"library": (_Meter(env, time.process_time), [numpy.array(matrix, dtype=numpy.float32) for matrix in actions]
+                          if numpy is not None else actions)}
+    shown = _plain(env.reset()[0])
+    if arguments.pipe:
+        pipe = PipeEnv(arguments.pipe, arguments.task, arguments.envs, options=options)
+        if _plain(pipe.first_observations) != shown:
+            raise Error("library and pipe do not begin with the same numbers")
+        meters["pipe"] = (_Meter(pipe, lambda: time.process_time() + pipe.processor_time()), actions)
+    left = arguments.bench
+    while left > 0:
+        for meter, taken in meters.values():
+            meter.run(taken, min(1.0, left))
+        left -= 1.0
+    for name, (meter, _) in meters.items():
+        meter.report(name)
+        meter.env.close()
 
 
 def _test_without_library():
@@ -261,10 +346,6 @@ def _test_without_library():
         assert "NONET_ENV_LIBRARY" in str(trouble)
     else:
         raise AssertionError("a library that is not there was loaded")
-
-
-def _plain(values):
-    return [_plain(value) if hasattr(value, "__len__") else float(value) for value in values]
 
 
 def _test_library():
@@ -333,6 +414,7 @@ def main():
     parser.add_argument("task", nargs="?")
     parser.add_argument("--list", action="store_true", help="the tasks")
     parser.add_argument("--bench", type=float, metavar="SECONDS", help="steps a second of one core")
+    parser.add_argument("--pipe", metavar="NONET", help="compare with this program's `nonet env`")
     parser.add_argument("--envs", type=int, default=4)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--type", type=int, default=0, help="robot type")
@@ -345,10 +427,7 @@ def main():
         for name, description in tasks().items():
             print(f"{name:<10} {description}")
     elif arguments.task and arguments.bench:
-        with VectorEnv(arguments.task, arguments.envs, threads=arguments.threads, robot_type=arguments.type,
-                       quick=arguments.quick) as env:
-            rate = bench(env, arguments.bench)
-            print(f"{rate:.0f} steps a second of one core, {rate * env.seconds_per_step:.0f} times real time")
+        bench(arguments)
     else:
         parser.error("give --list, --self-test, or a task and --bench")
 

@@ -16,6 +16,7 @@
 namespace nonet::app {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -62,6 +63,21 @@ TEST_F(Installed, PlaysWithItsOwnData) {
   EXPECT_THAT(json, HasSubstr("\"flawless\": true"));
 }
 
+// From Python, with the installation's own data.
+TEST_F(Installed, ItsLibraryServesLearners) {
+  const auto [code, output] =
+      asNobody("python3 '" + prefix + "/share/nonet/scripts/nonet_env.py' --self-test");
+  EXPECT_EQ(code, 0) << output;
+  EXPECT_THAT(output, HasSubstr("the library does what it should"));
+  // Where it looks shows when something is missing there.
+  const std::string file = prefix + "/share/nonet/params/type0.toml";
+  ASSERT_EQ(shell(folder, "chmod -R u+w '" + prefix + "' && rm '" + file + "'").first, 0);
+  const auto [failed, error] =
+      asNobody("python3 '" + prefix + "/share/nonet/scripts/nonet_env.py' run --bench 0.1");
+  EXPECT_EQ(failed, 1);
+  EXPECT_THAT(error, HasSubstr(file + ": is missing"));
+}
+
 TEST_F(Installed, ItsScriptsStartAndStopAgents) {
   Program server({"serve", "--port", "0", "--monitor-port", "0"}, folder.file("server.txt"));
   ASSERT_TRUE(server.says("agents on port "));
@@ -89,6 +105,9 @@ TEST_F(Installed, IsWhatThePackagesHold) {
   const auto [found, installed] = shell(folder, "cd '" + prefix + "'" + list);
   ASSERT_EQ(found, 0) << installed;
   EXPECT_THAT(installed, HasSubstr("x share/nonet/scripts/start.sh\n"));
+  EXPECT_THAT(installed, HasSubstr("- share/nonet/scripts/nonet_env.py\n"));
+  EXPECT_THAT(installed, HasSubstr("- include/nonet/env/nonet_env.h\n"));
+  EXPECT_THAT(installed, ContainsRegex("/libnonet_env\\.so\\.1\n"));
   EXPECT_THAT(installed, HasSubstr("- share/nonet/three/build/three.module.js\n"));
   for (const auto& [kind, ending, unpack] :
        {std::tuple{"TGZ", ".tar.gz", "tar xz --strip-components=1 -f ../package"},
