@@ -296,8 +296,9 @@ class _Meter:
 
     def report(self, name):
         rate = self.batches * self.env.num_envs / self.used
-        print(f"{name:<8} {rate:.0f} steps a second of one core, {rate * self.env.seconds_per_step:.0f} times real time; "
-              f"{self.batches * self.env.num_envs / self.waited:.0f} a second of the clock")
+        clock = self.batches * self.env.num_envs / self.waited
+        print(f"{name:<8} {rate:.0f} steps a second of one core, {rate * self.env.seconds_per_step:.0f} times real "
+              f"time; {clock:.0f} a second of the clock")
 
 
 def bench(arguments):
@@ -306,8 +307,8 @@ def bench(arguments):
     env = VectorEnv(arguments.task, arguments.envs, threads=arguments.threads, robot_type=arguments.type,
                     quick=arguments.quick)
     actions = _random_actions(env)
-    meters = {"library": (_Meter(env, time.process_time), [numpy.array(matrix, dtype=numpy.float32) for matrix in actions]
-                          if numpy is not None else actions)}
+    own = [numpy.array(matrix, dtype=numpy.float32) for matrix in actions] if numpy is not None else actions
+    meters = {"library": (_Meter(env, time.process_time), own)}
     shown = _plain(env.reset()[0])
     if arguments.pipe:
         pipe = PipeEnv(arguments.pipe, arguments.task, arguments.envs, options=options)
