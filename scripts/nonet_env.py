@@ -152,7 +152,7 @@ def _flags(values):
 class VectorEnv:
     """`num_envs` environments of a task, each showing `observation_size` numbers and taking `action_size` of them.
 
-    `threads` 0: all processors. `parameters` are assignments such as "motion.sprint.frequency=2.4". The same seed and
+    `threads` 0: all processors. `parameters` are assignments such as "motion.walk.gait.maxStepX=5cm". The same seed and
     actions give the same numbers, those of `nonet env` with the same options. One thread at a time may use it."""
 
     def __init__(self, task, envs=1, seed=1, threads=0, robot_type=0, quick=False, data_folder=None, parameters=(),

@@ -216,7 +216,7 @@ TEST(NonetEnv, RefusesWrongOptions) {
   };
   static const std::array<const char*, 1> kUnknown = {"no.such=1"};
   static const std::array<const char*, 1> kNothing = {nullptr};
-  static const std::array<const char*, 1> kNoValue = {"motion.sprint.frequency"};
+  static const std::array<const char*, 1> kNoValue = {"motion.walk.gait.maxStepX"};
   static const auto set = [](nonet_env_options& o, const auto& texts) {
     o.parameters = texts.data();
     o.parameter_count = texts.size();
@@ -233,7 +233,7 @@ TEST(NonetEnv, RefusesWrongOptions) {
            {[](auto& o) { o.parameter_count = 1; }, NONET_ENV_BAD_ARGUMENT, "parameters is a null"},
            {[](auto& o) { set(o, kNothing); }, NONET_ENV_BAD_ARGUMENT, "parameters[0] is a null"},
            {[](auto& o) { set(o, kUnknown); }, NONET_ENV_BAD_ARGUMENT, "no.such"},
-           {[](auto& o) { set(o, kNoValue); }, NONET_ENV_BAD_ARGUMENT, "motion.sprint.frequency"},
+           {[](auto& o) { set(o, kNoValue); }, NONET_ENV_BAD_ARGUMENT, "motion.walk.gait.maxStepX"},
            {[](auto& o) { o.data_folder = "/no/folder"; }, NONET_ENV_NO_DATA,
             "data_folder /no/folder: there"},
        }) {

@@ -56,7 +56,7 @@ typedef struct nonet_env_options {
   // The folder with params/ and skills/. NULL or "": that of the environment variable NONET_DATA, otherwise
   // the nearest one above this library, itself or in share/nonet, otherwise the source tree.
   const char* data_folder;
-  const char* const* parameters;  // assignments such as "motion.sprint.frequency=2.4"; may be NULL if 0
+  const char* const* parameters;  // assignments such as "motion.walk.gait.maxStepX=5cm"; may be NULL if 0
   size_t parameter_count;
 } nonet_env_options;
 
