@@ -3,7 +3,6 @@
 #include "nonet/lab/env/env.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -83,9 +82,10 @@ TEST(Env, RunningIsStandingWithoutAction) {
 }
 
 TEST(Env, UnknownNamesAndWrongSizesAreNamed) {
-  EXPECT_THROW(makeEnv("fly", settings()), std::runtime_error);
+  EXPECT_THROW(makeEnv("fly", settings()), EnvError);
   EnvBatch batch("run", settings(), 1, 1, 1);
-  EXPECT_THROW(batch.step(std::vector<float>(3)), std::runtime_error);
+  EXPECT_THROW(batch.step(std::vector<float>(3)), EnvError);
+  EXPECT_THROW(batch.step(std::vector<float>(batch.actions(), std::nanf(""))), EnvError);
 }
 
 }  // namespace
