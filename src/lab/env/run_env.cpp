@@ -1,10 +1,12 @@
-// run: the learner gives a target angle of every joint in every cycle, on the physics alone.
+// run: the learner gives a target angle of every joint in every cycle, on the physics alone. Episodes differ by
+// how the robot has come to stand: its joints are a little off at first.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "nonet/lab/trial/robot_trial.h"
+#include "nonet/math/random.h"
 #include "nonet/motion/walk/engine.h"
 
 #include "lab/env/envs.h"
@@ -14,6 +16,8 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kMostAngle = 1.2;  // rad from the stand for an action of 1
+constexpr double kShaken = 0.05;    // rad that a joint is off at first
+constexpr double kShakes = 0.2;     // s
 constexpr double kLongest = 10.0;   // s
 constexpr double kFall = 1.0;       // of reward
 constexpr double kForce = 50.0;     // N, shown as 1
@@ -37,15 +41,14 @@ class RunEnv final : public Env {
     setup_.seed = seed;
     trial_ = std::make_unique<RobotTrial>(setup_);
     trial_->settle({});
+    shake(Random(seed));
     begin_ = trial_->time();
-    way_ = 0.0;
+    way_ = wayMade();
   }
 
   // Reward: metres ahead, less those aside.
   EnvStep step(std::span<const float> action) override {
-    motion::JointTargets targets;
-    targets.angles = stand_;
-    targets.stiffness.fill(1.0);
+    motion::JointTargets targets = stand();
     std::size_t i = 0;
     for (const model::JointSpec& joint : model_.joints()) {
       const double offset = kMostAngle * std::clamp(static_cast<double>(action[i++]), -1.0, 1.0);
@@ -53,8 +56,7 @@ class RunEnv final : public Env {
       angle = std::clamp(angle + offset, joint.low, joint.high);
     }
     trial_->stepJoints(targets);
-    const Vector2 place = trial_->pose().translation;
-    const double way = place.x() - std::abs(place.y());
+    const double way = wayMade();
     const double reward = way - way_;
     way_ = way;
     if (trial_->down()) return {reward - kFall, true, false};
@@ -82,6 +84,28 @@ class RunEnv final : public Env {
   }
 
  private:
+  motion::JointTargets stand() const {
+    motion::JointTargets targets;
+    targets.angles = stand_;
+    targets.stiffness.fill(1.0);
+    return targets;
+  }
+
+  void shake(Random random) {
+    motion::JointTargets targets = stand();
+    for (const model::JointSpec& joint : model_.joints()) {
+      double& angle = targets.angles[model::index(joint.id)];
+      angle = std::clamp(angle + random.uniform(-kShaken, kShaken), joint.low, joint.high);
+    }
+    for (double time = 0.0; time < kShakes; time += kCycleTime) trial_->stepJoints(targets);
+  }
+
+  // m ahead, less those aside.
+  double wayMade() const {
+    const Vector2 place = trial_->pose().translation;
+    return place.x() - std::abs(place.y());
+  }
+
   TrialSettings setup_;
   const model::RobotModel& model_;
   model::JointArray stand_{};
