@@ -61,8 +61,8 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
   }
 }
 
-std::array<Vector2, kFieldRoles> usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
-                                             const FormationParameters& parameters) {
+Places usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
+                   const FormationParameters& parameters) {
   const Vector2 ownGoal = field.ownGoal();
   const Vector2 goalToBall = p_FB - ownGoal;
   const double distance = std::max(goalToBall.norm(), 1e-6);
@@ -72,11 +72,15 @@ std::array<Vector2, kFieldRoles> usualPlaces(const Vector2& p_FB, const world::F
   const double nearBack = std::min(parameters.firstBackFromGoal, 0.5 * distance);
   const double farBack = std::min(parameters.secondBackFromGoal, 0.75 * distance);
 
+  const bool joins = distance > parameters.joinFrom;
+  const Vector2 fartherBack = joins ? Vector2(p_FB - parameters.joinBehind * along)
+                                    : Vector2(ownGoal + farBack * along - parameters.backAside * aside);
+
   return {
       p_FB,
       p_FB - parameters.stopperBehind * along,
       ownGoal + nearBack * along + parameters.backAside * aside,
-      ownGoal + farBack * along - parameters.backAside * aside,
+      fartherBack,
       p_FB + Vector2(-parameters.wingBehind, parameters.wingAside),
       p_FB + Vector2(-parameters.wingBehind, -parameters.wingAside),
       p_FB + Vector2(parameters.forwardAhead, parameters.forwardAside),
@@ -89,15 +93,19 @@ std::array<Vector2, kFieldRoles> usualPlaces(const Vector2& p_FB, const world::F
 }  // namespace
 
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
-                       const FormationParameters& parameters, const VariantParameters& variant) {
+                       const FormationParameters& parameters, const VariantParameters& variant,
+                       std::span<const world::PlayerState> opponents) {
   assert(count >= 0 && count <= kFieldRoles);
-  const auto other = variantPlaces(p_FB, field, parameters, variant);
-  const std::array<Vector2, kFieldRoles> wanted = other ? *other : usualPlaces(p_FB, field, parameters);
-
+  std::optional<Places> wanted = variantPlaces(p_FB, field, parameters, variant);
+  const bool usual = !wanted;
+  if (usual) {
+    wanted = usualPlaces(p_FB, field, parameters);
+    markOpponents(*wanted, opponents, field, parameters);
+  }
   Formation formation;
   formation.count = count;
-  for (int i = 0; i < count; ++i) formation.positions[i] = wanted[i];
-  spread(formation, field, parameters, !other);
+  std::copy_n(wanted->begin(), count, formation.positions.begin());
+  spread(formation, field, parameters, usual);
   return formation;
 }
 

@@ -8,8 +8,6 @@ namespace nonet::team {
 
 namespace {
 
-using Places = std::array<Vector2, kFieldRoles>;
-
 // The line from the own goal to the ball, and what lies beside it.
 struct GoalLine {
   GoalLine(const Vector2& p_FB, const world::FieldGeometry& field)

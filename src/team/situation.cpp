@@ -31,7 +31,8 @@ Formation placesFor(const Situation& s) {
     parameters.stopperBehind =
         std::max(parameters.stopperBehind, s.parameters.clearOfOpponentKick + parameters.apart);
   }
-  Formation places = formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant);
+  Formation places =
+      formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant, world.opponents);
   if (!s.setPlay) return places;
   // The stopper is the receiver of the own set piece, so whoever is next to that place is the stopper.
   places.positions[static_cast<std::size_t>(Role::Stopper)] = s.setPlay->p_FReceiver;

@@ -48,6 +48,89 @@ TEST(Formation, BacksStandBetweenTheirGoalAndTheBall) {
   }
 }
 
+TEST(Formation, TheFartherBackJoinsAnAttackWhileTheOtherStaysAtHome) {
+  const world::FieldGeometry field;
+  const FormationParameters parameters;
+  const Vector2 goal(-15.0, 0.0);
+  for (double x = -12.0; x <= 12.0; x += 0.5) {
+    for (double y = -8.0; y <= 8.0; y += 2.0) {
+      const Vector2 ball(x, y);
+      const Formation formation = formationFor(ball, 8, field, parameters);
+      const Vector2 nearer = formation.positions[static_cast<int>(Role::BackLeft)];
+      const Vector2 farther = formation.positions[static_cast<int>(Role::BackRight)];
+      EXPECT_LT((nearer - goal).norm(), 5.0);
+      if ((ball - goal).norm() <= parameters.joinFrom) {
+        EXPECT_LT((farther - goal).norm(), 8.0) << ball;
+      } else {
+        EXPECT_NEAR((farther - ball).norm(), parameters.joinBehind, 0.5) << ball;
+        EXPECT_LT((farther - goal).norm(), (ball - goal).norm()) << ball;
+      }
+    }
+  }
+}
+
+class Marking : public testing::Test {
+ protected:
+  Marking() { parameters.markWithin = 12.0; }
+
+  void opponent(double x, double y) {
+    world::PlayerState player;
+    player.known = true;
+    player.X_FP.translation = {x, y};
+    opponents.push_back(player);
+  }
+
+  Vector2 place(Role role, const Vector2& ball) const {
+    return formationFor(ball, 8, field, parameters, {}, opponents).positions[static_cast<std::size_t>(role)];
+  }
+
+  world::FieldGeometry field;
+  FormationParameters parameters;
+  std::vector<world::PlayerState> opponents;
+};
+
+TEST_F(Marking, TheWingsStandBetweenTheirGoalAndWhoIsNearestToIt) {
+  const Vector2 ball(-6.0, 0.0);
+  opponent(-8.0, 4.0);
+  opponent(-9.0, -5.0);
+  opponent(-5.0, 5.0);  // less dangerous
+  opponent(-6.5, 0.3);  // at the ball
+  opponent(2.0, 1.0);   // far
+  const auto guards = [&](Role role, const Vector2& threat) {
+    const Vector2 way = field.ownGoal() - threat;
+    EXPECT_LT((place(role, ball) - (threat + 0.6 * way.normalized())).norm(), 1e-9);
+  };
+  guards(Role::WingLeft, {-8.0, 4.0});
+  guards(Role::WingRight, {-9.0, -5.0});
+  std::reverse(opponents.begin(), opponents.end());
+  guards(Role::WingLeft, {-8.0, 4.0});
+  guards(Role::WingRight, {-9.0, -5.0});
+  opponents[4].known = false;  // that at (-8, 4)
+  guards(Role::WingLeft, {-5.0, 5.0});
+}
+
+TEST_F(Marking, TheNearerWingGoesToTheOnlyOne) {
+  const Vector2 ball(-6.0, 0.0);
+  const Vector2 left = place(Role::WingLeft, ball);
+  const Vector2 right = place(Role::WingRight, ball);
+  opponent(-9.0, -3.0);
+  EXPECT_EQ(place(Role::WingLeft, ball), left);
+  EXPECT_NE(place(Role::WingRight, ball), right);
+}
+
+TEST_F(Marking, IsForTheOwnGoalOnly) {
+  opponent(-9.0, -3.0);
+  const FormationParameters marks = parameters;
+  for (double x = -13.0; x <= 13.0; x += 0.5) {
+    const Vector2 ball(x, 1.0);
+    parameters = marks;
+    const Vector2 marking = place(Role::WingRight, ball);
+    parameters.markWithin = 0.0;
+    const bool marked = marking != place(Role::WingRight, ball);
+    EXPECT_EQ(marked, (ball - field.ownGoal()).norm() < marks.markWithin) << x;
+  }
+}
+
 // Illegal defence (server facts 4.10): goalie, the one on the ball and one back are the three that may be
 // there.
 TEST(Formation, KeepsTheOtherPlayersOutOfTheOwnPenaltyArea) {

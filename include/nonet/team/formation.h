@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include "nonet/math/pose2.h"
 #include "nonet/team/parameters.h"
@@ -28,21 +29,28 @@ enum class Role : std::uint8_t {
 
 inline constexpr int kFieldRoles = 10;  // all but the goalie's
 
+using Places = std::array<Vector2, kFieldRoles>;
+
 struct Formation {
-  std::array<Vector2, kFieldRoles> positions{};  // of roles OnBall ... , `count` of them
+  Places positions{};  // of roles OnBall ... , `count` of them
   int count = 0;
 };
 
-/// Positions of `count` field players (all but the goalie) when the ball is at p_FB. `variant` may ask for
-/// another formation than the team's own (formation_variants.cpp).
+/// Positions of `count` field players (all but the goalie) when the ball is at p_FB. Near the own goal the
+/// wings' are those that mark `opponents` (marking.cpp). `variant` may ask for another formation than the
+/// team's own (formation_variants.cpp).
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
-                       const FormationParameters& parameters, const VariantParameters& variant = {});
+                       const FormationParameters& parameters, const VariantParameters& variant = {},
+                       std::span<const world::PlayerState> opponents = {});
+
+/// With the ball near the own goal the wings' places become those between the own goal and the one or two
+/// most dangerous opponents, the nearest to the goal that are not at the ball.
+void markOpponents(Places& places, std::span<const world::PlayerState> opponents,
+                   const world::FieldGeometry& field, const FormationParameters& parameters);
 
 /// The places that a variant wants, before they are spread; nothing if it leaves the formation as it is.
-std::optional<std::array<Vector2, kFieldRoles>> variantPlaces(const Vector2& p_FB,
-                                                              const world::FieldGeometry& field,
-                                                              const FormationParameters& parameters,
-                                                              const VariantParameters& variant);
+std::optional<Places> variantPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
+                                    const FormationParameters& parameters, const VariantParameters& variant);
 
 /// Where player `unum` beams to before a kick-off; everybody is in the own half.
 Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,

@@ -18,6 +18,11 @@ struct FormationParameters {
   double firstBackFromGoal = 4.0;
   double secondBackFromGoal = 7.0;
   double backAside = 0.7;
+  double joinFrom = 17.0;
+  double joinBehind = 1.5;
+  double markWithin = 0.0;
+  double markFree = 1.5;
+  double markBehind = 0.6;
   double touchLineMargin = 0.7;
   double apart = 1.0;
   double areaMargin = 0.3;
@@ -50,6 +55,32 @@ struct FormationParameters {
           self.secondBackFromGoal);
     visit({"backAside", Unit::Metre, {0, 3}, search(0, 1.5), "Backs: to either side of the line goal - ball"},
           self.backAside);
+    visit({"joinFrom",
+           Unit::Metre,
+           {0, 60},
+           search(12, 40),
+           "A ball farther than this from the own goal: the farther back joins the attack"},
+          self.joinFrom);
+    visit({"joinBehind", Unit::Metre, {0, 10}, search(1, 4), "It is so far behind the ball then"},
+          self.joinBehind);
+    visit({"markWithin",
+           Unit::Metre,
+           {0, 30},
+           search(0, 15),
+           "A ball nearer than this to the own goal: the wings mark opponents that are too; 0: never"},
+          self.markWithin);
+    visit({"markFree",
+           Unit::Metre,
+           {0, 10},
+           search(0.5, 3),
+           "Those nearer to the ball than this are left to the one on the ball"},
+          self.markFree);
+    visit({"markBehind",
+           Unit::Metre,
+           {0, 3},
+           search(0.4, 1.5),
+           "Who marks stands so far from the opponent, towards the own goal"},
+          self.markBehind);
     visit({"touchLineMargin", Unit::Metre, {0, 3}, fixed, "Positions stay this far inside the field"},
           self.touchLineMargin);
     visit({"apart", Unit::Metre, {0, 3}, fixed, "Positions are at least this far from each other"},
