@@ -44,6 +44,8 @@ class Lexer {
       : text_(text), file_(file), errors_(errors) {}
 
   std::vector<SkillToken> run() {
+    constexpr std::size_t kCharactersPerToken = 4;  // about
+    tokens_.reserve(text_.size() / kCharactersPerToken);
     while (at_ < text_.size()) next();
     add(SkillToken::Kind::End, 0);
     return std::move(tokens_);

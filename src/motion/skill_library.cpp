@@ -25,8 +25,13 @@ std::string readFile(const std::string& path) {
 
 std::vector<Skill> readFolder(const std::string& folder, const SkillParameters& parameters) {
   std::vector<Skill> skills;
+  // Files ask in the order in which they have declared, so the next one is nearly always that after the last.
+  std::size_t next = 0;
   const auto lookup = [&](std::string_view skill, std::string_view parameter) {
-    return parameters.find(skill, parameter);
+    const std::size_t at = parameters.indexOf(skill, parameter, next);
+    if (at == parameters.values.size()) return std::optional<double>();
+    next = at + 1;
+    return std::optional(parameters.values[at]);
   };
   const std::vector<SkillText> texts = skillTexts(folder);
   for (const SkillText& text : texts) {
@@ -61,12 +66,18 @@ std::vector<SkillText> skillTexts(const std::string& skillFolder) {
   return texts;
 }
 
-std::optional<double> SkillParameters::find(std::string_view skill, std::string_view parameter) const {
+std::size_t SkillParameters::indexOf(std::string_view skill, std::string_view parameter,
+                                     std::size_t first) const {
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const Name& name = (*names)[i];
-    if (name.skill == skill && name.parameter == parameter) return values[i];
+    const std::size_t at = (first + i) % values.size();
+    if ((*names)[at].parameter == parameter && (*names)[at].skill == skill) return at;
   }
-  return std::nullopt;
+  return values.size();
+}
+
+std::optional<double> SkillParameters::find(std::string_view skill, std::string_view parameter) const {
+  const std::size_t at = indexOf(skill, parameter);
+  return at < values.size() ? std::optional(values[at]) : std::nullopt;
 }
 
 SkillParameters declareSkillParameters(const std::string& skillFolder) {

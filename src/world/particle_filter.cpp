@@ -18,8 +18,9 @@ constexpr double kClusterRadius = 0.5;   // m
 constexpr double kClusterAngle = 0.35;   // rad
 constexpr double kBorder = 2.0;          // m around the field in which a robot may be
 
-double sigmaAt(double distance) {
-  return kBluntDistance + kBluntAngle * distance;
+double informationAt(double distance) {
+  const double sigma = kBluntDistance + kBluntAngle * distance;
+  return 1.0 / (sigma * sigma);
 }
 
 double angleOf(const Vector2& v) {
@@ -46,12 +47,14 @@ void GroundObservations::assign(const VisionFrame& frame, const Pose3& X_LC, con
   landmarkCount = lineCount = 0;
   const auto ground = [&](const Vector3& p_CP) -> Vector2 { return (X_LC * (p_CP - offset)).head<2>(); };
   for (const ObservedLandmark& seen : frame.landmarks()) {
-    landmarks[landmarkCount++] = {seen.id, ground(seen.at.p_CP)};
+    const Vector2 place = ground(seen.at.p_CP);
+    landmarks[landmarkCount++] = {seen.id, place, informationAt(place.norm())};
   }
   if (!useLines) return;
   for (const ObservedLine& seen : frame.lines()) {
     Segment& segment = lines[lineCount++];
     segment.ends = {ground(seen.ends[0].p_CP), ground(seen.ends[1].p_CP)};
+    segment.information = {informationAt(segment.ends[0].norm()), informationAt(segment.ends[1].norm())};
     segment.length = seen.length;
     segment.clipped = seen.clipped;
     segment.candidates = 0;
@@ -111,13 +114,11 @@ double ParticleFilter::logLikelihood(const Pose2& X_WR, const GroundObservations
   };
   double cost = 0.0;
   for (const GroundObservations::Point& point : seen.points()) {
-    const double sigma = sigmaAt(point.p_LP.norm());
     const Vector2 difference = toField(point.p_LP) - map.landmark(point.id).head<2>();
-    cost += std::min(difference.squaredNorm() / (sigma * sigma), 2.0 * kBound);
+    cost += std::min(difference.squaredNorm() * point.information, 2.0 * kBound);
   }
   for (const GroundObservations::Segment& segment : seen.segments()) {
     const std::array<Vector2, 2> ends{toField(segment.ends[0]), toField(segment.ends[1])};
-    const std::array<double, 2> sigmas{sigmaAt(segment.ends[0].norm()), sigmaAt(segment.ends[1].norm())};
     double best = kBound;
     for (std::uint32_t bits = segment.candidates; bits != 0; bits &= bits - 1) {
       const FieldLine& line = map.lines()[static_cast<std::size_t>(std::countr_zero(bits))];
@@ -126,7 +127,7 @@ double ParticleFilter::logLikelihood(const Pose2& X_WR, const GroundObservations
         const Vector2 target = (side == 0 ? line.begin : line.end).head<2>();
         const double squared =
             segment.clipped[side] ? squaredDistance(line, ends[side]) : (ends[side] - target).squaredNorm();
-        sum += squared / (sigmas[side] * sigmas[side]);
+        sum += squared * segment.information[side];
       }
       best = std::min(best, sum);
     }

@@ -114,7 +114,8 @@ struct PoseFit::Problem {
   }
 
   void add(const Jacobian& J, const Vector3& r, int rows) {
-    normal.noalias() += J.transpose() * J;
+    // Eigen would take its way for large matrices.
+    normal.noalias() += J.transpose().lazyProduct(J);
     gradient.noalias() += J.transpose() * r;
     measurementCost += r.squaredNorm();
     residuals += rows;

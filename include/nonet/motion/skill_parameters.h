@@ -27,6 +27,8 @@ struct SkillParameters {
   std::vector<double> values;  // one per name
 
   std::optional<double> find(std::string_view skill, std::string_view parameter) const;
+  /// values.size() if there is none. It is searched for from `first` on, then before that.
+  std::size_t indexOf(std::string_view skill, std::string_view parameter, std::size_t first = 0) const;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {

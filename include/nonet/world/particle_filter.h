@@ -29,9 +29,11 @@ struct GroundObservations {
   struct Point {
     protocol::Landmark id = protocol::Landmark::F1L;
     Vector2 p_LP = Vector2::Zero();
+    double information = 0.0;  // 1 / variance of either coordinate, 1/m^2
   };
   struct Segment {
     std::array<Vector2, 2> ends{Vector2::Zero(), Vector2::Zero()};
+    std::array<double, 2> information{};
     double length = 0.0;
     std::array<bool, 2> clipped{};
     std::uint32_t candidates = 0;  // bit per map line that is long enough

@@ -143,8 +143,9 @@ Vector6 ArticulatedBodySolver::complianceTimes(const Joint& joint, const Vector6
   return result;
 }
 
-// With H the child's articulated-body inertia and S S = E:
-//     T = (1 + H E)^-1 = 1 - H S (1 + S H S)^-1 S,     B = T H.
+// With H the child's articulated-body inertia, E = e + f a a^T and N = (1 + e H)^-1, by the formula of
+// Sherman and Morrison:
+//     T = (1 + H E)^-1 = N - f N H a (N a)^T / (1 + f a^T N H a),     B = T H.
 // Where the joint turns freely, H is taken without the part that moves about the axis.
 void ArticulatedBodySolver::computeInertias() {
   articulatedInertias_ = inertias_;
@@ -153,18 +154,18 @@ void ArticulatedBodySolver::computeInertias() {
     Matrix6 inertia = inertiaSeenFrom(articulatedInertias_[i], crossMatrix(joint.childArm));
     joint.axisMomentum = inertia.rightCols<3>() * joint.axis;
     joint.axisInertia = joint.axis.dot(joint.axisMomentum.tail<3>());
-    Matrix6 root = Matrix6::Identity() * std::sqrt(compliance_);
-    if (joint.row == AxisRow::Constraint) {
-      root.bottomRightCorner<3, 3>() +=
-          (std::sqrt(joint.axisCompliance) - std::sqrt(compliance_)) * joint.axis * joint.axis.transpose();
-    } else {
-      inertia -= joint.axisMomentum * joint.axisMomentum.transpose() / joint.axisInertia;
-    }
-    const Matrix6 inertiaRoot = inertia * root;
-    Matrix6 middle = root * inertiaRoot;
+    const bool free = joint.row != AxisRow::Constraint;
+    if (free) inertia -= joint.axisMomentum * joint.axisMomentum.transpose() / joint.axisInertia;
+    Matrix6 middle = compliance_ * inertia;
     middle.diagonal().array() += 1.0;
-    joint.transmission = -inertiaRoot * SmallCholesky(middle).solve(root);
-    joint.transmission.diagonal().array() += 1.0;
+    joint.transmission = SmallCholesky(middle).solve(Matrix6::Identity());
+    if (!free) {
+      const double more = joint.axisCompliance - compliance_;
+      const Vector6 momentum = joint.transmission * joint.axisMomentum;
+      const Vector6 turn = joint.transmission.rightCols<3>() * joint.axis;
+      const double share = more / (1.0 + more * joint.axis.dot(momentum.tail<3>()));
+      joint.transmission -= share * momentum * turn.transpose();
+    }
     joint.apparentInertia = joint.transmission * inertia;
     articulatedInertias_[static_cast<std::size_t>(links_[i].parent)] +=
         inertiaSeenFrom(joint.apparentInertia, -crossMatrix(joint.parentArm));
