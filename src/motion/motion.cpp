@@ -41,15 +41,15 @@ struct Motion::Stages {
   Stages(const model::RobotModel& robot, const MotionParameters& motionParameters,
          const std::string& skillFolder)
       : parameters(motionParameters),
-        library(skillFolder, motionParameters.skills),
-        catalogue(library, robot.type()),
+        library(sharedSkillLibrary(skillFolder, motionParameters.skills)),
+        catalogue(*library, robot.type()),
         stand(
             WalkEngine::standAngles(robot, motionParameters.sets.of(motionParameters.selection.standSet()))),
-        curves(robot, library, stand),
+        curves(robot, *library, stand),
         kicks(catalogue, motionParameters.kick, &curves),
-        player(robot, library, stand),
+        player(robot, *library, stand),
         walk(robot, motionParameters.sets, motionParameters.selection, motionParameters.run),
-        fall(robot, library, motionParameters.fall, stand),
+        fall(robot, *library, motionParameters.fall, stand),
         head(robot, motionParameters.head) {}
 
   enum class Mode : std::uint8_t { Walk, Skill, Fall };
@@ -60,7 +60,7 @@ struct Motion::Stages {
   void updateWalk(const world::WorldState& world, const MotionRequest& request);
 
   MotionParameters parameters;
-  SkillLibrary library;
+  std::shared_ptr<const SkillLibrary> library;
   KickCatalogue catalogue;
   model::JointArray stand;
   CurveCheck curves;

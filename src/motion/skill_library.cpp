@@ -1,9 +1,11 @@
 #include "nonet/motion/skill_library.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 
 #include <fmt/format.h>
 
@@ -39,6 +41,39 @@ std::vector<Skill> readFolder(const std::string& folder, const SkillParameters& 
   }
   return skills;
 }
+
+/// The libraries that were asked for last.
+class LibraryShelf {
+ public:
+  std::shared_ptr<const SkillLibrary> find(const std::string& folder, const SkillParameters& parameters) {
+    const std::lock_guard lock(mutex_);
+    for (const Book& book : books_) {
+      // Names that are the same object stand for the same declaration: the book keeps its own from going
+      // away.
+      const bool same = book.parameters.names == parameters.names &&
+                        book.parameters.values == parameters.values && book.folder == folder;
+      if (same && book.library) return book.library;
+    }
+    return nullptr;
+  }
+
+  void keep(const std::string& folder, const SkillParameters& parameters,
+            std::shared_ptr<const SkillLibrary> library) {
+    const std::lock_guard lock(mutex_);
+    books_[next_] = {folder, parameters, std::move(library)};
+    next_ = (next_ + 1) % books_.size();
+  }
+
+ private:
+  struct Book {
+    std::string folder;
+    SkillParameters parameters;
+    std::shared_ptr<const SkillLibrary> library;
+  };
+  std::mutex mutex_;
+  std::array<Book, 10> books_;  // two sides of five robot types
+  std::size_t next_ = 0;
+};
 
 // Outside a declared range nothing breaks, but neither does a file mean it.
 constexpr double kAnything = 1e3;
@@ -92,6 +127,16 @@ SkillParameters declareSkillParameters(const std::string& skillFolder) {
   }
   result.names = std::make_shared<const std::vector<SkillParameters::Name>>(std::move(names));
   return result;
+}
+
+std::shared_ptr<const SkillLibrary> sharedSkillLibrary(const std::string& skillFolder,
+                                                       const SkillParameters& parameters) {
+  static LibraryShelf shelf;
+  std::shared_ptr<const SkillLibrary> library = shelf.find(skillFolder, parameters);
+  if (library) return library;
+  library = std::make_shared<const SkillLibrary>(skillFolder, parameters);
+  shelf.keep(skillFolder, parameters, library);
+  return library;
 }
 
 SkillLibrary::SkillLibrary(const std::string& skillFolder, const SkillParameters& parameters)

@@ -292,5 +292,37 @@ TEST(SkillParameters, AreDeclaredUnderTheirSkill) {
   EXPECT_EQ(parameters.find(name.skill, "there is none"), std::nullopt);
 }
 
+TEST(SkillParameters, AreFoundFromEverywhere) {
+  const SkillParameters parameters = declareSkillParameters(std::string(NONET_SOURCE_DIR) + "/skills");
+  const std::size_t count = parameters.values.size();
+  Random random(3);
+  for (std::size_t i = 0; i < count; ++i) {
+    const SkillParameters::Name& name = (*parameters.names)[i];
+    EXPECT_EQ(parameters.indexOf(name.skill, name.parameter), i);
+    EXPECT_EQ(parameters.indexOf(name.skill, name.parameter, random.below(count + 1)), i);
+  }
+  EXPECT_EQ(parameters.indexOf("none", "none", count / 2), count);
+}
+
+TEST(SharedSkillLibrary, IsOneForTheSameParameters) {
+  const std::string folder = std::string(NONET_SOURCE_DIR) + "/skills";
+  const SkillParameters parameters = declareSkillParameters(folder);
+  const auto library = sharedSkillLibrary(folder, parameters);
+  SkillParameters copy = parameters;
+  EXPECT_EQ(sharedSkillLibrary(folder, copy), library);
+  copy.values.front() += 1.0;
+  const auto other = sharedSkillLibrary(folder, copy);
+  EXPECT_NE(other, library);
+  EXPECT_EQ(sharedSkillLibrary(folder, parameters), library);
+  // Declared anew: the files may be others.
+  EXPECT_NE(sharedSkillLibrary(folder, declareSkillParameters(folder)), library);
+  // Whoever has one keeps it, however many are asked for.
+  for (int i = 0; i < 30; ++i) {
+    copy.values.front() += 1.0;
+    sharedSkillLibrary(folder, copy);
+  }
+  EXPECT_EQ(library->size(), SkillLibrary(folder, parameters).size());
+}
+
 }  // namespace
 }  // namespace nonet::motion

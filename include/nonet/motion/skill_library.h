@@ -1,6 +1,7 @@
 // All skills of a folder, with calls resolved.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,12 @@ class SkillLibrary {
   int depthOf(int index, int depth) const;
   std::vector<Skill> skills_;
 };
+
+/// The same as SkillLibrary(skillFolder, parameters), one for all who ask for it with copies of the same
+/// parameters: a trial that makes its robots anew in every episode need not read the files again. A file that
+/// was changed since the parameters were declared is not read again either. From any thread.
+std::shared_ptr<const SkillLibrary> sharedSkillLibrary(const std::string& skillFolder,
+                                                       const SkillParameters& parameters);
 
 /// Paths of the *.skl files of a folder, sorted.
 std::vector<std::string> skillFiles(const std::string& skillFolder);

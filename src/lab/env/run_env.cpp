@@ -1,5 +1,5 @@
-// run: the learner gives a target angle of every joint in every cycle, on the physics alone. Episodes differ by
-// how the robot has come to stand: its joints are a little off at first.
+// run: the learner gives a target angle of every joint in every cycle, on the physics alone. Episodes differ
+// by how the robot has come to stand: its joints are a little off at first.
 #include <algorithm>
 #include <array>
 #include <cmath>
