@@ -27,8 +27,8 @@ struct AgentChoice {
 };
 
 /// Parameters are layered: defaults of the code, then DATA/params/type<robotType>.toml, then the given files,
-/// then the assignments. `dataFolder` holds params/ and skills/. Throws config::ParameterError; DataError, one
-/// of these, if the file of the type or all skills are missing.
+/// then the assignments. `dataFolder` holds params/ and skills/. Throws config::ParameterError; DataError,
+/// one of these, if the file of the type or all skills are missing.
 AgentSettings makeAgentSettings(const AgentChoice& choice, const std::string& dataFolder);
 
 /// What the header of a log must hold so that agentFromLog() builds the same agent.
