@@ -111,8 +111,7 @@ void addEnvCommand(CLI::App& app, int& exitCode) {
   command->add_option("--bench", arguments->bench, "Steps with random actions for so many seconds instead")
       ->check(CLI::Range(0.0, 3600.0));
   command->footer(
-      "A program that learns starts this command and talks to it: PipeEnv in scripts/nonet_env.py. The "
-      "library\n"
+      "A program that learns starts this command and talks to it: PipeEnv in scripts/nonet_env.py.\n"
       "libnonet_env.so is the same without a pipe: VectorEnv there.\nExamples:\n  nonet env --list\n"
       "  nonet env run --type 4 --envs 8 --threads 1 --bench 5\n  python3 scripts/env_example.py dribble");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });

@@ -7,6 +7,7 @@
 #include <asio.hpp>
 #include <fmt/format.h>
 
+#include "nonet/model/ball.h"
 #include "nonet/world/ball_law.h"
 
 namespace nonet::app {
@@ -68,7 +69,7 @@ class Picture {
     robovizPoint(next(), raised(at), 4.0, color, prefix_ + std::string(set));
   }
   void ball(const Vector3& at) {
-    robovizSphere(next(), {turn_ * at.x(), turn_ * at.y(), std::max(at.z(), 0.042)}, 0.06, kPink,
+    robovizSphere(next(), {turn_ * at.x(), turn_ * at.y(), std::max(at.z(), model::kBallRadius)}, 0.06, kPink,
                   prefix_ + "ball");
   }
 

@@ -52,7 +52,7 @@ class LibraryShelf {
       // away.
       const bool same = book.parameters.names == parameters.names &&
                         book.parameters.values == parameters.values && book.folder == folder;
-      if (same && book.library) return book.library;
+      if (same) return book.library;
     }
     return nullptr;
   }

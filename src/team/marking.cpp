@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <utility>
+#include <cassert>
 
 #include "nonet/team/formation.h"
 
@@ -7,34 +7,26 @@ namespace nonet::team {
 
 namespace {
 
-constexpr std::size_t kMarkers = 2;  // the wings
-
 struct Threats {
-  std::array<Vector2, kMarkers> places;  // the most dangerous first
+  std::array<Vector2, world::kTeamSize> places;  // the most dangerous first
   std::size_t count = 0;
 };
 
 Threats threatsOf(const Vector2& p_FB, std::span<const world::PlayerState> opponents,
                   const world::FieldGeometry& field, const FormationParameters& parameters) {
   const Vector2 goal = field.ownGoal();
-  const auto nearer = [&](const Vector2& a, const Vector2& b) {
-    return (a - goal).squaredNorm() < (b - goal).squaredNorm();
-  };
   Threats threats;
   for (const world::PlayerState& opponent : opponents) {
     const Vector2 place = opponent.X_FP.translation;
     if (!opponent.known || (place - goal).norm() >= parameters.markWithin) continue;
     if ((place - p_FB).norm() < parameters.markFree) continue;
-    if (threats.count < kMarkers) {
-      threats.places[threats.count++] = place;
-    } else if (nearer(place, threats.places.back())) {
-      threats.places.back() = place;
-    } else {
-      continue;
-    }
-    if (threats.count == kMarkers && nearer(threats.places[1], threats.places[0]))
-      std::swap(threats.places[0], threats.places[1]);
+    assert(threats.count < threats.places.size());
+    threats.places[threats.count++] = place;
   }
+  std::sort(threats.places.begin(), threats.places.begin() + threats.count,
+            [&](const Vector2& a, const Vector2& b) {
+              return (a - goal).squaredNorm() < (b - goal).squaredNorm();
+            });
   return threats;
 }
 
@@ -57,7 +49,7 @@ void markOpponents(Places& places, std::span<const world::PlayerState> opponents
   if (threats.count == 1) {
     const Vector2 place = guard(threats.places[0], field, parameters);
     ((place - left).squaredNorm() <= (place - right).squaredNorm() ? left : right) = place;
-  } else if (threats.count == kMarkers) {
+  } else if (threats.count > 1) {
     const auto [leftOne, rightOne] =
         std::minmax(threats.places[0], threats.places[1],
                     [](const Vector2& a, const Vector2& b) { return a.y() > b.y(); });

@@ -15,13 +15,13 @@
 
 namespace nonet::lab {
 
-/// Calls job(0) ... job(count - 1). `threads` 0: as many as there are processors. After an exception no job
-/// begins any more; the first one is thrown again here. Threads that the system does not give are done
-/// without.
+/// Calls job(0) ... job(count - 1) on no more threads than jobs. `threads` 0: as many as there are
+/// processors. After an exception no job begins any more; the first one is thrown again here. Threads that
+/// the system does not give are done without.
 template <class Job>
 void inParallel(int count, int threads, const Job& job) {
-  const int workers =
-      std::max(1, threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+  const int most = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int workers = std::clamp(most, 1, std::max(1, count));
   std::atomic<int> next{0};
   std::exception_ptr failure;
   std::mutex failureMutex;

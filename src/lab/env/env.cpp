@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -35,10 +34,9 @@ std::unique_ptr<Env> makeEnv(std::string_view task, const EnvSettings& settings)
 }
 
 EnvBatch::EnvBatch(std::string_view task, const EnvSettings& settings, int count, int threads,
-                   std::uint64_t seed) {
+                   std::uint64_t seed)
+    : threads_(threads) {
   if (count < 1) throw EnvError("a batch needs at least one environment");
-  const int most = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
-  threads_ = std::clamp(most, 1, count);
   for (int i = 0; i < count; ++i) envs_.push_back({makeEnv(task, settings), 0});
   observation_.resize(size() * observations());
   lastObservation_.resize(observation_.size());

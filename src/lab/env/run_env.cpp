@@ -48,14 +48,9 @@ class RunEnv final : public Env {
 
   // Reward: metres ahead, less those aside.
   EnvStep step(std::span<const float> action) override {
-    motion::JointTargets targets = stand();
-    std::size_t i = 0;
-    for (const model::JointSpec& joint : model_.joints()) {
-      const double offset = kMostAngle * std::clamp(static_cast<double>(action[i++]), -1.0, 1.0);
-      double& angle = targets.angles[model::index(joint.id)];
-      angle = std::clamp(angle + offset, joint.low, joint.high);
-    }
-    trial_->stepJoints(targets);
+    trial_->stepJoints(offStand([&action, i = std::size_t{0}]() mutable {
+      return kMostAngle * std::clamp(static_cast<double>(action[i++]), -1.0, 1.0);
+    }));
     const double way = wayMade();
     const double reward = way - way_;
     way_ = way;
@@ -84,19 +79,21 @@ class RunEnv final : public Env {
   }
 
  private:
-  motion::JointTargets stand() const {
+  /// The stand with every joint off by what `offset` gives, joint by joint, within its stops.
+  template <class Offset>
+  motion::JointTargets offStand(Offset offset) const {
     motion::JointTargets targets;
     targets.angles = stand_;
     targets.stiffness.fill(1.0);
+    for (const model::JointSpec& joint : model_.joints()) {
+      double& angle = targets.angles[model::index(joint.id)];
+      angle = std::clamp(angle + offset(), joint.low, joint.high);
+    }
     return targets;
   }
 
   void shake(Random random) {
-    motion::JointTargets targets = stand();
-    for (const model::JointSpec& joint : model_.joints()) {
-      double& angle = targets.angles[model::index(joint.id)];
-      angle = std::clamp(angle + random.uniform(-kShaken, kShaken), joint.low, joint.high);
-    }
+    const motion::JointTargets targets = offStand([&] { return random.uniform(-kShaken, kShaken); });
     for (double time = 0.0; time < kShakes; time += kCycleTime) trial_->stepJoints(targets);
   }
 

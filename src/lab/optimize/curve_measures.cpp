@@ -17,7 +17,6 @@ using motion::FootCurve;
 
 namespace {
 
-constexpr double kRadius = model::kBallRadius;
 constexpr double kTouches = 1e-5;    // m
 constexpr double kTinyShare = 1e-4;  // of the curve, over which the foot's speed is taken
 constexpr int kHalvings = 20;        // of a step, to find the contact in it
@@ -42,7 +41,7 @@ Nearest nearestOf(const model::RobotModel& model, const model::BodyPoses& bodies
   nearest.body = body;
   nearest.p_FPoint = p_FBall.cwiseMax(-half).cwiseMin(half);
   const Vector3 way = p_FBall - nearest.p_FPoint;
-  nearest.gap = way.norm() - kRadius;
+  nearest.gap = way.norm() - model::kBallRadius;
   if (way.norm() > 1e-9) nearest.normal = X_RF.linear() * way.normalized();
   return nearest;
 }

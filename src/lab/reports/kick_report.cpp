@@ -59,8 +59,8 @@ nlohmann::ordered_json jsonOf(const KickFigure& figure, double unit = 1.0) {
 }  // namespace
 
 std::vector<std::string> kickNames(const agent::AgentSettings& agent) {
-  const motion::SkillLibrary library(agent.skillFolder, agent.parameters.motion.skills);
-  const motion::KickCatalogue catalogue(library, agent.robotType);
+  const auto library = motion::sharedSkillLibrary(agent.skillFolder, agent.parameters.motion.skills);
+  const motion::KickCatalogue catalogue(*library, agent.robotType);
   std::vector<std::string> names;
   for (const motion::KickOption& option : catalogue.options()) {
     if (option.foot == model::Side::Left) names.emplace_back(option.name);

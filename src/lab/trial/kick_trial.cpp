@@ -69,8 +69,8 @@ double kickBearing(int trial) {
 }
 
 motion::KickHead kickHead(const agent::AgentSettings& agent, const std::string& kick) {
-  const motion::SkillLibrary library(agent.skillFolder, agent.parameters.motion.skills);
-  const motion::KickCatalogue catalogue(library, agent.robotType);
+  const auto library = motion::sharedSkillLibrary(agent.skillFolder, agent.parameters.motion.skills);
+  const motion::KickCatalogue catalogue(*library, agent.robotType);
   std::string known;
   for (const motion::KickOption& option : catalogue.options()) {
     if (option.name == kick) return option.head;

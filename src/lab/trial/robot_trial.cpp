@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nonet/lab/trial/true_pose.h"
+#include "nonet/model/ball.h"
 #include "nonet/protocol/rounding.h"
 #include "nonet/sim/sensors/sensors.h"
 
@@ -25,7 +26,7 @@ struct RobotTrial::Implementation {
   explicit Implementation(const TrialSettings& setup)
       : physics(setup.physics), handle(physics.addRobot(setup.robotType)), robot(setup), random(setup.seed) {
     blind.vision = false;
-    physics.setBallPosition({0.0F, -9.0F, 0.042F});
+    physics.setBallPosition({0.0F, -9.0F, static_cast<float>(model::kBallRadius)});
   }
 
   void sense() {

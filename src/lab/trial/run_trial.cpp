@@ -5,6 +5,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/model/ball.h"
 
 namespace nonet::lab {
 
@@ -42,7 +43,8 @@ class Runner {
  public:
   Runner(const TrialSettings& setup, std::uint64_t seed)
       : random_(Random(seed).fork(9)), trial_(onOpenGround(setup, seed)) {
-    trial_.physics().setBallPosition({0.0F, static_cast<float>(-kAway * 3.0), 0.042F});
+    trial_.physics().setBallPosition(
+        {0.0F, static_cast<float>(-kAway * 3.0), static_cast<float>(model::kBallRadius)});
   }
 
   RunOutcome run() {

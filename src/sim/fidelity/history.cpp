@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "nonet/model/ball.h"
 #include "nonet/protocol/rounding.h"
 
 #include "sim/fidelity/replay_server.h"
@@ -25,7 +26,7 @@ int cyclesOf(double seconds) {
   return static_cast<int>(std::nearbyint(seconds / kCycleTime));
 }
 
-std::string ballCommand(double x, double y, double z = 0.042) {
+std::string ballCommand(double x, double y, double z = model::kBallRadius) {
   return fmt::format("(ball (pos {} {} {})(vel 0.0 0.0 0.0))", x, y, z);
 }
 

@@ -3,13 +3,14 @@
 #include <array>
 #include <cstdio>
 
+#include "nonet/model/ball.h"
 #include "nonet/protocol/rounding.h"
 
 namespace nonet::sim {
 
 namespace {
 
-const Vector3f kCentre{0.0F, 0.0F, 0.042F};
+const Vector3f kCentre{0.0F, 0.0F, static_cast<float>(model::kBallRadius)};
 
 /// The numbers of the first list "(name ...)" in `text`; empty if there is none.
 std::vector<float> numbersOf(std::string_view text, std::string_view name) {

@@ -6,15 +6,16 @@
 #include <string_view>
 
 #include "nonet/lab/trial/robot_trial.h"
+#include "nonet/model/ball.h"
 
 namespace nonet::lab {
 
 /// What a robot bars to a ball that comes straight at the plane in which it stood, by the ball's place there
 /// and its time after the request.
 struct Dive {
-  static constexpr int kTimes = 10;                                  // 0.1 s, 0.2 s, ... 1 s
-  static constexpr int kPlaces = 17;                                 // to the side: 0, 5 cm, ... 80 cm
-  static constexpr std::array<double, 3> kHeights{0.042, 0.2, 0.4};  // m, of the ball's centre
+  static constexpr int kTimes = 10;   // 0.1 s, 0.2 s, ... 1 s
+  static constexpr int kPlaces = 17;  // to the side: 0, 5 cm, ... 80 cm
+  static constexpr std::array<double, 3> kHeights{model::kBallRadius, 0.2, 0.4};  // m, of the ball's centre
   static double timeAt(int i) { return 0.1 * (i + 1); }
   static double placeAt(int i) { return 0.05 * i; }
 

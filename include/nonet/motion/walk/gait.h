@@ -128,7 +128,7 @@ struct GaitParameters {
     visit({"stopStep",
            Unit::Metre,
            {0.0, 0.3},
-           search(0.005, 0.2),
+           search(0.005, 0.04),
            "Coming to a stand soon: a step smaller than this is the last"},
           self.stopStep);
     visit({"stopTurn",

@@ -17,6 +17,7 @@
 #include <Eigen/Geometry>
 
 #include "nonet/math/types.h"
+#include "nonet/model/ball.h"
 #include "nonet/model/robot_model.h"
 
 namespace nonet::sim {
@@ -50,7 +51,7 @@ struct WorldSettings {
   double goalWidth = 2.1;
   double goalDepth = 0.6;
   double goalHeight = 0.8;
-  double ballRadius = 0.042;
+  double ballRadius = model::kBallRadius;
   double ballMass = 0.026;
 };
 

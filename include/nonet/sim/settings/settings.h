@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nonet/config/parameters.h"
+#include "nonet/model/ball.h"
 #include "nonet/sim/physics/world.h"
 
 namespace nonet::sim {
@@ -23,7 +24,7 @@ struct Settings {
   double penaltyLength = 1.8;
   double penaltyWidth = 3.9;  // without the width of the goal: the area is penaltyWidth + goalWidth wide
   double borderSize = 0.0;
-  double ballRadius = 0.042;
+  double ballRadius = model::kBallRadius;
   double ballMass = 0.026;
   double agentRadius = 0.4;
 
