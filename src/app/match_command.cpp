@@ -17,6 +17,7 @@
 #include "nonet/app/team_name.h"
 #include "nonet/app/trace_file.h"
 #include "nonet/lab/reports/match_agreement.h"
+#include "nonet/lab/reports/match_kicks.h"
 #include "nonet/lab/reports/match_localization.h"
 
 namespace nonet::app {
@@ -29,6 +30,7 @@ struct MatchArguments {
   bool inProcess = false;
   bool localization = false;
   bool agreement = false;
+  bool kicks = false;
   bool alone = false;
   bool truth = false;
   std::string json = "logs/match.json";
@@ -55,6 +57,7 @@ void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter)
 struct Measurements {
   lab::MatchLocalization localization;
   lab::MatchAgreement agreement;
+  lab::MatchKicks kicks;
 };
 
 lab::MatchResult playHere(const MatchArguments& arguments, Console& console, Measurements& measured) {
@@ -69,15 +72,18 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console, Mea
     if (console.due()) console.progress(watcher.progress(simulation));
     if (arguments.localization) measured.localization.afterCycle(simulation);
     if (arguments.agreement) measured.agreement.afterCycle(simulation);
+    if (arguments.kicks) measured.kicks.afterCycle(simulation);
     return !StopSignal::came();
   };
   std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
   std::map<sim::AgentHandle, std::unique_ptr<RobovizPainter>> painters;
   const TcpMatchSettings& settings = arguments.settings;
-  if (arguments.localization || arguments.agreement || settings.draw || !settings.traces.empty()) {
+  const bool measures = arguments.localization || arguments.agreement || arguments.kicks;
+  if (measures || settings.draw || !settings.traces.empty()) {
     observers.afterThought = [&](const lab::Thought& thought) {
       if (arguments.localization) measured.localization.afterThought(thought);
       if (arguments.agreement) measured.agreement.afterThought(thought);
+      if (arguments.kicks) measured.kicks.afterThought(thought);
       if (!settings.traces.empty()) addTrace(settings.traces, thought, traces[thought.handle]);
       if (settings.draw) draw(thought, painters[thought.handle]);
     };
@@ -140,10 +146,12 @@ int runMatch(MatchArguments& arguments) {
   fmt::print("{}", result.toText());
   if (arguments.localization) fmt::print("{}", measured.localization.toText());
   if (arguments.agreement) fmt::print("{}", measured.agreement.toText());
+  if (arguments.kicks) fmt::print("{}", measured.kicks.toText());
   std::ofstream file(arguments.json);
   nlohmann::ordered_json json = result.toJson();
   if (arguments.localization) json["localization"] = measured.localization.toJson();
   if (arguments.agreement) json["agreement"] = measured.agreement.toJson();
+  if (arguments.kicks) json["kicks"] = measured.kicks.toJson();
   file << json.dump(2) << "\n";
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
   fmt::print("result in {}\n", arguments.json);
@@ -236,6 +244,10 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
           "--agreement", arguments->agreement,
           "With --in-process: in what share of the cycles all field players of a team mean the same "
           "assignment of roles; --set SayLossShare=0.2 makes each listener miss a fifth of what is said")
+      ->needs(inProcess);
+  command
+      ->add_flag("--kicks", arguments->kicks,
+                 "With --in-process: how far each kick was meant to go and how far the ball went")
       ->needs(inProcess);
   command
       ->add_option("--threads", arguments->threads,

@@ -108,7 +108,7 @@ int runSoak(SoakArguments& arguments) {
   arguments.matches.seed = arguments.faults.seed = arguments.effectors.seed = arguments.seed;
   if (arguments.players > 0)
     arguments.matches.players = arguments.faults.players = arguments.effectors.players = arguments.players;
-  Console console;
+  Console console(arguments.json ? stderr : stdout);
   if (arguments.effectorMinutes > 0.0) return runEffectors(arguments, console);
   std::filesystem::create_directories(arguments.out);
   return arguments.harm ? runFaults(arguments, console) : runMatches(arguments, console);

@@ -1,0 +1,75 @@
+// Oracles: shares reckoned by hand, and matches whose end is known: one robot alone that kicks, and the same match without
+// the measurement.
+#include "nonet/lab/reports/match_kicks.h"
+
+#include <gtest/gtest.h>
+
+namespace nonet::lab {
+namespace {
+
+MatchKick kickOf(double intended, double carried, double went) {
+  MatchKick kick;
+  kick.intended = intended;
+  kick.carried = carried;
+  kick.went = went;
+  kick.contact = carried > 0.0;
+  return kick;
+}
+
+TEST(KickShares, AreMediansOfAll) {
+  EXPECT_EQ(kickShares({}).kicks, 0);
+  const KickShares shares = kickShares({kickOf(10.0, 9.0, 3.0), kickOf(4.0, 0.0, 0.0), kickOf(8.0, 8.8, 8.0)});
+  EXPECT_EQ(shares.kicks, 3);
+  EXPECT_NEAR(shares.missed, 1.0 / 3.0, 1e-12);
+  EXPECT_DOUBLE_EQ(shares.intended, 8.0);
+  EXPECT_DOUBLE_EQ(shares.carried, 0.9);
+  EXPECT_DOUBLE_EQ(shares.went, 0.3);
+  EXPECT_NEAR(shares.underHalf, 1.0 / 3.0, 1e-12);
+}
+
+struct Played {
+  MatchKicks kicks;
+  MatchResult result;
+};
+Played played(int left, int right, bool watched) {
+  MatchSettings match;
+  match.left.players = left;
+  match.right.players = right;
+  match.minutes = 1.0;
+  match.kickOffWait = 2.0;
+  match.settings.quickSolver = true;
+  Played played;
+  MatchObservers observers;
+  if (watched) {
+    observers.afterThought = [&](const Thought& thought) { played.kicks.afterThought(thought); };
+    observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher&) {
+      played.kicks.afterCycle(simulation);
+      return true;
+    };
+  }
+  played.result = playInProcess(match, NONET_SOURCE_DIR, 1, observers);
+  return played;
+}
+
+TEST(MatchKicks, GoAsFarAsMeantWhereNobodyIsInTheWay) {
+  const Played alone = played(3, 0, true);
+  const KickShares shares = kickShares(alone.kicks.kicks());
+  ASSERT_GE(shares.kicks, 3);
+  EXPECT_GE(shares.intended, 2.0);
+  EXPECT_GE(shares.carried, 0.8);
+  EXPECT_LE(shares.carried, 1.6);
+  for (const MatchKick& kick : alone.kicks.kicks()) {
+    EXPECT_GE(kick.unum, 1);
+    EXPECT_LE(kick.unum, 3);
+    EXPECT_GE(kick.time, 0.0);
+    EXPECT_LE(kick.time, 60.0);
+    EXPECT_FALSE(kick.name.empty());
+    if (!kick.contact) {
+      EXPECT_EQ(kick.carried, 0.0);
+    }
+  }
+  EXPECT_EQ(played(3, 0, false).result.signature, alone.result.signature);
+}
+
+}  // namespace
+}  // namespace nonet::lab
