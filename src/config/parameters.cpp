@@ -192,6 +192,18 @@ void set(const std::vector<Field>& fields, std::string_view key, double value) {
   assign(fieldNamed(fields, key), value, "");
 }
 
+void set(const std::vector<Field>& fields, std::span<const std::string> keys,
+         std::span<const double> values) {
+  assert(keys.size() == values.size());
+  std::size_t next = 0;  // keys in the order of the fields are found at once
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    while (next < fields.size() && fields[next].key != keys[i]) ++next;
+    const Field& field = next < fields.size() ? fields[next] : fieldNamed(fields, keys[i]);
+    assign(field, values[i], "");
+    next = static_cast<std::size_t>(&field - fields.data()) + 1;
+  }
+}
+
 void setText(const std::vector<Field>& fields, std::string_view key, std::string_view text) {
   const Field& field = fieldNamed(fields, key);
   if (field.text != nullptr) {

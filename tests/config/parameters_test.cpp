@@ -1,9 +1,12 @@
 #include "nonet/config/parameters.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -197,6 +200,27 @@ TEST(Parameters, SetsByKey) {
   } catch (const ParameterError& error) {
     EXPECT_THAT(error.what(), HasSubstr("'walk.swing.lift'"));
   }
+}
+
+// Against setting one by one, in every order of the keys.
+TEST(Parameters, SetsManyInAnyOrder) {
+  std::vector<std::string> keys = {"walk.arms", "walk.steps", "walk.swing.lift"};
+  const std::map<std::string, double> values = {
+      {"walk.arms", 0.0}, {"walk.steps", 4.0}, {"walk.swing.lift", 0.07}};
+  Whole expected;
+  for (const auto& [key, value] : values) setParameter(expected, key, value);
+  do {
+    std::vector<double> inOrder;
+    for (const std::string& key : keys) inOrder.push_back(values.at(key));
+    Whole parameters;
+    setParameters(parameters, keys, inOrder);
+    EXPECT_EQ(toToml(parameters), toToml(expected)) << keys[0] << " " << keys[1];
+  } while (std::next_permutation(keys.begin(), keys.end()));
+  Whole parameters;
+  EXPECT_THROW(setParameters(parameters, std::vector<std::string>{"walk.lift"}, std::vector{0.05}),
+               ParameterError);
+  EXPECT_THROW(setParameters(parameters, std::vector<std::string>{"walk.steps"}, std::vector{4.5}),
+               ParameterError);
 }
 
 TEST(Parameters, WritingAndReadingKeepsEveryBit) {

@@ -21,6 +21,7 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -115,6 +116,7 @@ std::vector<ParameterView> views(const std::vector<Field>& fields);
 void overlayFile(const std::vector<Field>& fields, const std::string& path);
 void overlayText(const std::vector<Field>& fields, std::string_view toml, const std::string& nameForErrors);
 void set(const std::vector<Field>& fields, std::string_view key, double value);
+void set(const std::vector<Field>& fields, std::span<const std::string> keys, std::span<const double> values);
 void setText(const std::vector<Field>& fields, std::string_view key, std::string_view text);
 std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* unlessEqualTo);
 std::vector<std::string> declarationFaults(const std::vector<Field>& fields);
@@ -154,6 +156,13 @@ void overlayText(Parameters& parameters, std::string_view toml, const std::strin
 template <class Parameters>
 void setParameter(Parameters& parameters, std::string_view key, double value) {
   detail::set(fieldsOf(parameters), key, value);
+}
+
+/// The same for many at once, key by key; quickest in the order of listParameters().
+template <class Parameters>
+void setParameters(Parameters& parameters, std::span<const std::string> keys,
+                   std::span<const double> values) {
+  detail::set(fieldsOf(parameters), keys, values);
 }
 
 /// The same with a value as people type it: "0.03", "3cm", "true" (also "on" and "1"), or a text.

@@ -66,8 +66,10 @@ double SearchSpace::value(int dimension, double coordinate) const {
 }
 
 agent::AgentParameters SearchSpace::apply(const Eigen::VectorXd& point) const {
+  std::vector<double> values(keys_.size());
+  for (int i = 0; i < dimension(); ++i) values[static_cast<std::size_t>(i)] = value(i, point[i]);
   agent::AgentParameters parameters = base_;
-  for (int i = 0; i < dimension(); ++i) config::setParameter(parameters, keys_[i], value(i, point[i]));
+  config::setParameters(parameters, keys_, values);
   return parameters;
 }
 

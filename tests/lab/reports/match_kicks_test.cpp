@@ -1,5 +1,5 @@
-// Oracles: shares reckoned by hand, and matches whose end is known: one robot alone that kicks, and the same match without
-// the measurement.
+// Oracles: shares reckoned by hand, and matches whose end is known: one robot alone that kicks, and the same
+// match without the measurement.
 #include "nonet/lab/reports/match_kicks.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ MatchKick kickOf(double intended, double carried, double went) {
 
 TEST(KickShares, AreMediansOfAll) {
   EXPECT_EQ(kickShares({}).kicks, 0);
-  const KickShares shares = kickShares({kickOf(10.0, 9.0, 3.0), kickOf(4.0, 0.0, 0.0), kickOf(8.0, 8.8, 8.0)});
+  const KickShares shares =
+      kickShares({kickOf(10.0, 9.0, 3.0), kickOf(4.0, 0.0, 0.0), kickOf(8.0, 8.8, 8.0)});
   EXPECT_EQ(shares.kicks, 3);
   EXPECT_NEAR(shares.missed, 1.0 / 3.0, 1e-12);
   EXPECT_DOUBLE_EQ(shares.intended, 8.0);
