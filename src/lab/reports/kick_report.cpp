@@ -21,6 +21,22 @@ KickFigure figureOf(const std::vector<double>& sample) {
   return {mean(sample), quantile(sample, 0.5), quantile(sample, 0.1)};
 }
 
+/// Where a ball was highest.
+struct Apex {
+  double height = 0.0;  // m
+  double at = 0.0;      // m from where it lay
+};
+Apex apexOf(const Kick& kick) {
+  Apex apex;
+  for (const Vector3& p : kick.path)
+    if (p.z() > apex.height) apex = {p.z(), p.head<2>().norm()};
+  return apex;
+}
+
+double deviation(const std::vector<double>& sample) {
+  return standardError(sample) * std::sqrt(static_cast<double>(sample.size()));
+}
+
 KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks, double asked) {
   KickStatistics s;
   s.name = name;
@@ -29,6 +45,8 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks, do
   std::vector<double> distances;
   std::vector<double> reached;
   std::vector<double> heights;
+  std::vector<double> apexes;
+  std::vector<double> apexPlaces;
   std::vector<double> directions;
   std::vector<double> times;
   for (const Kick& kick : kicks) {
@@ -39,6 +57,9 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks, do
     reached.push_back(kick.forward / asked);
     heights.push_back(kick.height);
     if (kick.missed()) continue;
+    const Apex apex = apexOf(kick);
+    apexes.push_back(apex.height);
+    apexPlaces.push_back(apex.at);
     directions.push_back(std::abs(kick.direction()));
     times.push_back(kick.time);
     s.withinTen += std::abs(kick.direction()) < toRadians(10.0) ? share : 0.0;
@@ -46,6 +67,9 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks, do
   s.distance = figureOf(distances);
   s.reached = figureOf(reached);
   s.height = figureOf(heights);
+  s.apex = figureOf(apexes);
+  s.apexAt = figureOf(apexPlaces);
+  s.apexSpread = deviation(apexes);
   s.directionError = figureOf(directions);
   s.time = figureOf(times);
   s.kicks = std::move(kicks);
@@ -109,6 +133,10 @@ std::string kickReportTable(const std::vector<KickStatistics>& report) {
         s.distance.median, s.distance.p10, 100.0 * s.reached.median, toDegrees(s.directionError.mean),
         s.time.mean, s.height.mean);
   }
+  out += "\nwhat the heads should say of the balls' flights:\n";
+  for (const KickStatistics& s : report)
+    out += fmt::format("{:<20} flies {:.2f}m at {:.1f}m within {:.2f}m\n", s.name, s.apex.median,
+                       s.apexAt.median, s.apexSpread);
   return out;
 }
 
@@ -121,6 +149,9 @@ std::string kickReportJson(const std::vector<KickStatistics>& report, const Kick
                     {"distance_m", jsonOf(s.distance)},
                     {"of_asked", jsonOf(s.reached)},
                     {"height_1m_m", jsonOf(s.height)},
+                    {"apex_m", jsonOf(s.apex)},
+                    {"apex_at_m", jsonOf(s.apexAt)},
+                    {"apex_spread_m", s.apexSpread},
                     {"direction_error_deg", jsonOf(s.directionError, toDegrees(1.0))},
                     {"time_s", jsonOf(s.time)},
                     {"under_2m", s.under2m},

@@ -37,7 +37,8 @@ constexpr double kSpread = 0.5;        // share of the standard deviation
 constexpr double kRolling = 0.3;       // m/s
 // m from the ball: where the approach begins decides in which step the kick does.
 constexpr double kNearest = 0.3;
-constexpr double kFarthest = 1.5;
+constexpr double kFarthest = 3.0;
+constexpr double kStraightOn = 0.2;  // share of its bearing that every other approach has: most come from behind
 constexpr std::uint64_t kSeed = 26;  // of the starts
 constexpr double kDistance = 10.0;   // m, that is asked of kicks that go always as far
 constexpr double kExact = 4.0;       // m, worth of one that goes exactly as far as is asked for
@@ -52,7 +53,7 @@ Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
   for (int i = 0; i < kStarts; ++i) {
     KickScene scene;
     scene.kick = kick;
-    scene.bearing = kickBearing(i);
+    scene.bearing = (i % 2 == 0 ? 1.0 : kStraightOn) * kickBearing(i / 2);
     scene.rolling = i % 3 == 0 ? kRolling : 0.0;
     Random random = seeds.fork(static_cast<std::uint64_t>(i));
     scene.start = random.uniform(kNearest, kFarthest);

@@ -38,6 +38,9 @@ struct KickStatistics {
   KickFigure distance;        // m towards the target; a miss counts with what it made
   KickFigure reached;         // share of the distance asked for
   KickFigure height;          // m, of the ball's centre a metre from where it lay
+  KickFigure apex;            // m, of the ball's centre where it is highest, of the kicks that hit
+  KickFigure apexAt;          // m from where the ball lay to there
+  double apexSpread = 0.0;    // m, standard deviation of heights
   KickFigure directionError;  // rad, of the kicks that hit
   KickFigure time;            // s until contact, of the kicks that hit
   double under2m = 0.0;       // share of all

@@ -1,5 +1,5 @@
-// What becomes of the kicks in a match: for each kick that a player's motion began in an in-process match, how
-// far it was meant to go and how far the ball went, by the simulation's truth.
+// What becomes of the kicks in a match: for each kick that a player's motion began in an in-process match,
+// how far it was meant to go and how far the ball went, by the simulation's truth.
 #pragma once
 
 #include <map>
@@ -24,7 +24,7 @@ struct MatchKick {
   double intended = 0.0;  // what was asked for, or what the kick serves where that is less
   bool contact = false;   // the kicker touched the ball in the kick
   double carried = 0.0;   // where the ball would have come to rest, as it went when it was last free
-  double went = 0.0;      // until somebody touched it, it left the field or lay still; a goal went all the way
+  double went = 0.0;  // until somebody touched it, it left the field or lay still; a goal went all the way
 
   double carriedShare() const { return carried / intended; }
   double wentShare() const { return went / intended; }
@@ -35,8 +35,8 @@ struct KickShares {
   int kicks = 0;
   double missed = 0.0;  // share without contact
   double intended = 0.0;
-  double carried = 0.0;   // median of carriedShare()
-  double went = 0.0;      // median of wentShare()
+  double carried = 0.0;    // median of carriedShare()
+  double went = 0.0;       // median of wentShare()
   double underHalf = 0.0;  // share that was carried less than half as far as intended
 };
 KickShares kickShares(const std::vector<MatchKick>& kicks);
