@@ -73,8 +73,8 @@ bool KickControl::serves(const KickOption& option, const KickTo& request) const 
   if (option.head.room > request.room) return false;
   const bool named = request.kick.view() == option.name;
   if (!request.kick.view().empty() && !named) return false;
-  // What a ball may go beyond is not for soft kicks.
-  if (option.head.scales && !request.stops && !named) return false;
+  // What a ball may go beyond is not for soft kicks, and chips are for those who want to go over somebody.
+  if (((option.head.scales && !request.stops) || option.head.isChip()) && !named) return false;
   return std::find(refused_.begin(), refused_.end(), &option) == refused_.end();
 }
 

@@ -63,6 +63,10 @@ KickHead readKickHead(SkillReader& reader) {
       if (head.longest < head.shortest) reader.fail("the distances are the wrong way round");
     } else if (reader.accept("flies")) {
       readFlight(reader, head);
+    } else if (reader.accept("clears")) {
+      head.clears = reader.positive(Unit::Metre);
+      reader.expect("within");
+      head.lands = reader.positive(Unit::Metre);
     } else if (reader.accept("contact")) {
       head.contact = reader.positive(Unit::Second);
     } else if (reader.accept("room")) {
@@ -74,8 +78,8 @@ KickHead readKickHead(SkillReader& reader) {
       head.types = readTypes(reader);
     } else {
       reader.fail(
-          fmt::format("'{}' does not belong into the head of a kick (ball direction distance flies contact "
-                      "room from types)",
+          fmt::format("'{}' does not belong into the head of a kick (ball direction distance flies clears "
+                      "contact room from types)",
                       reader.peek().text));
     }
   }

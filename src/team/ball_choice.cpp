@@ -62,8 +62,9 @@ void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoi
   const ChoiceParameters& p = s.parameters.choice;
   const std::optional<double> present = presentKick(s);
   for (const motion::KickOption& kick : s.motion.kicks) {
-    if (kick.foot != model::Side::Left || !kick.head.isStraight() || kick.head.scales) continue;
-    if (kick.head.room > s.nearestOpponent) continue;
+    const motion::KickHead& head = kick.head;
+    if (kick.foot != model::Side::Left || !head.isStraight() || head.scales || head.isChip()) continue;
+    if (head.room > s.nearestOpponent) continue;
     const double length = p.length * kick.head.longest;
     for (int i = fan.from; i <= fan.to; ++i) {
       const double direction = wrapAngle(fan.middle + kStep * i);

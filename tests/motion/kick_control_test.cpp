@@ -102,6 +102,25 @@ TEST(KickChoice, TakesKicksThatScaleForPasses) {
   for (const double distance : {2.0, 4.0, 8.0}) EXPECT_EQ(asked(distance, false).option->name, "kick_far");
 }
 
+TEST(KickChoice, ChipsAreForThoseWhoAskForOne) {
+  const SkillLibrary library(
+      parseSkills("skill kick_low { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..12m contact 0.3s "
+                  "from walk } }\n"
+                  "skill kick_over { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 2m..5m clears 0.7m "
+                  "within 4m contact "
+                  "0.3s from walk } }",
+                  "test.skl"));
+  const KickCatalogue catalogue(library, 0);
+  const WalkEngine walk(model::robotModel(0));
+  KickControl control(catalogue, KickParameters{});
+  KickTo kick;
+  kick.ball = {0.2, 0.05};
+  kick.target = {2.2, 0.05};
+  EXPECT_EQ(control.update(kick, walk, 0.0).option->name, "kick_low") << "a metre too far";
+  kick.kick = std::string_view("kick_over");
+  EXPECT_EQ(control.update(kick, walk, 0.0).option->name, "kick_over");
+}
+
 TEST_F(Control, KeepsItsChoiceThroughSmallChanges) {
   EXPECT_EQ(step(request({0.2, 0.01}, {5.0, 0.0})).option->foot, Side::Left);
   EXPECT_EQ(step(request({0.2, -0.01}, {5.0, 0.0})).option->foot, Side::Left);

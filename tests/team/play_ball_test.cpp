@@ -117,6 +117,33 @@ TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
 }
 
 // The oracle: which of the places between the posts a straight line reaches past everybody.
+TEST(PlayBall, ChipsOnlyOverSomebody) {
+  world::WorldState world;
+  world.ball.p_FB = Vector3(10.8, 0.0, 0.042);
+  motion::KickOption chip;
+  chip.name = "chip";
+  chip.head.shortest = 2.0;
+  chip.head.longest = 5.0;
+  chip.head.apex = 1.05;
+  chip.head.apexAt = 1.8;
+  chip.head.apexSpread = 0.15;
+  chip.head.clears = 0.7;
+  chip.head.lands = 4.0;
+  motion::KickOption low;
+  low.name = "low";
+  low.head.shortest = 2.0;
+  low.head.longest = 8.0;
+  const std::array kicks{chip, low};
+  const auto shot = [&] {
+    const std::optional<Shot> best = bestShot(world, kicks, {});
+    return best ? std::string(best->kick) : "none";
+  };
+  EXPECT_EQ(shot(), "low");
+  for (const int unum : {4, 5, 6})
+    Scene::put(world.opponents[static_cast<std::size_t>(unum)], Pose2(12.6, 0.5 * (unum - 5), kPi));
+  EXPECT_EQ(shot(), "chip") << "a wall of three where the ball is highest";
+}
+
 TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
   world::WorldState world;
   world.ball.p_FB = Vector3(10.0, 0.0, 0.042);

@@ -71,6 +71,8 @@ struct KickHead {
   double apex = 0.0;         // m, height of the flying ball where it is highest, in the median; 0: it rolls
   double apexAt = 0.0;       // m from where it lay to there
   double apexSpread = 0.0;   // m, standard deviation of heights
+  double clears = 0.0;       // m: a chip, to be so high a metre from where it lay; 0: none
+  double lands = 0.0;        // m: and to come down no farther off
   double contact = 0.0;      // s from the begin of the skill to the foot's contact with the ball
   double room = 0.0;         // m that no opponent may be nearer to the ball
   std::uint32_t types = 31;  // bit per robot type
@@ -80,6 +82,8 @@ struct KickHead {
   bool serves(int robotType) const { return ((types >> robotType) & 1U) != 0; }
   /// The ball goes where the robot faces, give or take what can be varied; otherwise to the side.
   bool isStraight() const { return std::abs(direction) <= turn; }
+  /// Over somebody: done only when it is asked for by name.
+  bool isChip() const { return clears > 0.0; }
   /// The ball lies behind the robot: a kick with the heel.
   bool isBackward() const { return p_RBall.x() < 0.0; }
   /// The probability that the ball is lower than `height` (m) so far (m) from where it lay. Its first flight

@@ -37,10 +37,12 @@ double deviation(const std::vector<double>& sample) {
   return standardError(sample) * std::sqrt(static_cast<double>(sample.size()));
 }
 
-KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks, double asked) {
+KickStatistics statisticsOf(const std::string& name, const motion::KickHead& head, std::vector<Kick> kicks,
+                            double asked) {
   KickStatistics s;
   s.name = name;
   s.trials = static_cast<int>(kicks.size());
+  s.chip = head.isChip();
   const auto share = 1.0 / static_cast<double>(s.trials);
   std::vector<double> distances;
   std::vector<double> reached;
@@ -52,6 +54,7 @@ KickStatistics statisticsOf(const std::string& name, std::vector<Kick> kicks, do
   for (const Kick& kick : kicks) {
     s.falls += kick.fell ? share : 0.0;
     s.misses += kick.missed() ? share : 0.0;
+    s.clears += head.isChip() && kick.clears(head) ? share : 0.0;
     s.under2m += kick.tooShort() ? share : 0.0;
     distances.push_back(kick.forward);
     reached.push_back(kick.forward / asked);
@@ -101,7 +104,7 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
   std::vector<KickStatistics> report;
   const Random seeds(settings.seed);
   for (const std::string& name : names) {
-    const bool scales = name != "any" && kickHead(settings.agent, name).scales;
+    const motion::KickHead head = name == "any" ? motion::KickHead{} : kickHead(settings.agent, name);
     std::vector<Kick> kicks(static_cast<std::size_t>(settings.trials));
     inParallel(settings.trials, settings.threads, settings.progress, name, [&](int i) {
       KickScene scene;
@@ -110,12 +113,12 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
       scene.rolling = settings.rolling;
       scene.pushed = settings.pushed;
       scene.distance = settings.distance;
-      scene.stops = settings.stops || scales;
+      scene.stops = settings.stops || head.scales;
       scene.bearing = kickBearing(i);
       kicks[static_cast<std::size_t>(i)] =
           kickOnce(settings.agent, sim::Settings{}, scene, seeds.fork(static_cast<std::uint64_t>(i)).next());
     });
-    report.push_back(statisticsOf(name, std::move(kicks), settings.distance));
+    report.push_back(statisticsOf(name, head, std::move(kicks), settings.distance));
   }
   return report;
 }
@@ -133,6 +136,10 @@ std::string kickReportTable(const std::vector<KickStatistics>& report) {
         s.distance.median, s.distance.p10, 100.0 * s.reached.median, toDegrees(s.directionError.mean),
         s.time.mean, s.height.mean);
   }
+  for (const KickStatistics& s : report)
+    if (s.chip)
+      out += fmt::format("{:<20} {:.1f}% high enough a metre on, and down soon enough\n", s.name,
+                         100.0 * s.clears);
   out += "\nwhat the heads should say of the balls' flights:\n";
   for (const KickStatistics& s : report)
     out += fmt::format("{:<20} flies {:.2f}m at {:.1f}m within {:.2f}m\n", s.name, s.apex.median,
@@ -158,6 +165,7 @@ std::string kickReportJson(const std::vector<KickStatistics>& report, const Kick
                     {"within_10_deg", s.withinTen},
                     {"misses", s.misses},
                     {"falls", s.falls}};
+    if (s.chip) json[s.name]["clears"] = s.clears;
   }
   return json.dump(2) + "\n";
 }

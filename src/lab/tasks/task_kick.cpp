@@ -2,7 +2,7 @@
 // ten directions on a half circle, the ball where it is seen, sometimes rolling. The fitness is the distance
 // towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a miss or a ball that
 // leaves by more than ten degrees. Of a kick that goes as far as is asked for, the error counts instead of
-// the distance.
+// the distance, of a chip the height.
 #include <cmath>
 #include <string>
 
@@ -10,6 +10,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
 
+#include "lab/tasks/kick_worth.h"
 #include "lab/tasks/named_tasks.h"
 #include "lab/tasks/tasks.h"
 
@@ -24,7 +25,6 @@ constexpr double kStraight = toRadians(10.0);
 constexpr double kRolling = 0.3;   // m/s
 constexpr double kNearest = 0.3;   // m from the ball, where the approach begins
 constexpr double kFarthest = 1.5;  // m
-constexpr double kExact = 4.0;     // m, worth of a kick that goes exactly as far as is asked for
 
 class KickTask final : public Task {
  public:
@@ -61,8 +61,8 @@ class KickTask final : public Task {
       }
       const Kick kick = kickOnce(agent, server, scene, random.next());
       const bool failed = kick.fell || kick.missed() || std::abs(kick.direction()) > kStraight;
-      const double reached = head.scales ? kExact - std::abs(kick.forward - scene.distance) : kick.forward;
-      const double gained = reached - std::abs(kick.aside) - kPerSecond * kick.time;
+      const double gained =
+          worthOfWay(kick, head, scene.distance) - std::abs(kick.aside) - kPerSecond * kick.time;
       result.fitness += (failed ? kPenalty : gained) / kKicks;
       distance += kick.forward / kKicks;
       aside += std::abs(kick.aside) / kKicks;

@@ -1,9 +1,10 @@
 // swing_NAME: the kick kick_NAME from the moment it begins (swing_trial.h). For finding a kick's numbers
 // before kick_NAME polishes them with the approach. The fitness is the distance towards the target less what
 // goes aside, 1.2 m for every second until contact and what the robot leans afterwards, less half the spread
-// over the starts; for a kick that goes as far as is asked for, the error counts instead of the distance. A
-// ball that leaves by more than ten degrees gets less than -1, the less the farther off it is, so that a
-// search finds to the direction; no contact is worse, and a fall costs up to 1.
+// over the starts; for a kick that goes as far as is asked for, the error counts instead of the distance, for
+// a chip its height a metre on, and what it lands too far off. A ball that leaves by more than ten degrees
+// gets less than -1, the less the farther off it is, so that a search finds to the direction; no contact is
+// worse, and a fall costs up to 1.
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -16,6 +17,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
 
+#include "lab/tasks/kick_worth.h"
 #include "lab/tasks/named_tasks.h"
 #include "lab/tasks/tasks.h"
 
@@ -38,10 +40,10 @@ constexpr double kRolling = 0.3;       // m/s
 // m from the ball: where the approach begins decides in which step the kick does.
 constexpr double kNearest = 0.3;
 constexpr double kFarthest = 3.0;
-constexpr double kStraightOn = 0.2;  // share of its bearing that every other approach has: most come from behind
+// Share of its bearing that every other approach has: in play most come from behind.
+constexpr double kStraightOn = 0.2;
 constexpr std::uint64_t kSeed = 26;  // of the starts
 constexpr double kDistance = 10.0;   // m, that is asked of kicks that go always as far
-constexpr double kExact = 4.0;       // m, worth of one that goes exactly as far as is asked for
 
 using Starts = std::vector<KickStart>;
 
@@ -64,14 +66,14 @@ Starts makeStarts(const std::string& kick, const TaskSettings& settings) {
   return starts;
 }
 
-double gained(const Swing& swing, bool scales, double distance) {
+double gained(const Swing& swing, const motion::KickHead& head, double distance) {
   const Kick& kick = swing.kick;
   if (!kick.contact) return kNoContact;
   const double off = std::abs(kick.direction());
   if (kick.missed() || off > kStraight) return kPenalty - kPerTurn * off / kPi;
   if (kick.fell) return kPenalty * (1.0 - std::min(1.0, swing.upright / kLastsUpright));
-  return (scales ? kExact - std::abs(kick.forward - distance) : kick.forward) - std::abs(kick.aside) -
-         kPerSecond * kick.time - kPerLean * std::max(0.0, swing.lean - kLeans);
+  return worthOfWay(kick, head, distance) - std::abs(kick.aside) - kPerSecond * kick.time -
+         kPerLean * std::max(0.0, swing.lean - kLeans);
 }
 
 class SwingTask final : public Task {
@@ -99,7 +101,7 @@ class SwingTask final : public Task {
       const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(starts.size()));
       const double asked = head.scales ? random.uniform(head.shortest, head.longest) : kDistance;
       const Swing swing = trial.run(starts[std::min(chosen, starts.size() - 1)], asked);
-      const double value = gained(swing, head.scales, asked);
+      const double value = gained(swing, head, asked);
       sum += value / kSwings;
       squares += value * value / kSwings;
       distance += swing.kick.forward / kSwings;

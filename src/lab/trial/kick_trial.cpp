@@ -12,6 +12,7 @@
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/world/ball_law.h"
 
+#include "lab/trial/ball_flight.h"
 #include "lab/trial/kicker.h"
 
 namespace nonet::lab {
@@ -31,21 +32,19 @@ world::BallMotion motionOf(const GameTrial& trial) {
 // From the contact on: what the ball does, and whether the robot stays on its feet.
 void follow(GameTrial& trial, const Vector2& from, const Pose2& X_WAim, Kick& kick) {
   const double contact = trial.time();
-  bool passed = false;
+  BallFlight flight(from);
   const double least = contact + kLasts;
   while (trial.time() < contact + kRollsOut) {
     trial.step();
     const Vector3 ball = trial.ball();
     kick.ballSpeed = std::max(kick.ballSpeed, trial.ballVelocity().norm());
-    if (!passed && (ball.head<2>() - from).norm() > 1.0) {
-      passed = true;
-      kick.height = ball.z();
-    }
+    flight.note(motionOf(trial));
     const Vector2 aimed = X_WAim.inverse() * Vector2(ball.head<2>());
     kick.path.emplace_back(aimed.x(), aimed.y(), ball.z());
     if (trial.time() < least) kick.fell = kick.fell || trial.down(0);
     if (trial.time() > least && !world::isFlying(motionOf(trial))) break;
   }
+  flight.tell(kick);
   // The rest of a roll is certain.
   const Vector2 way = X_WAim.inverse() * world::restPlace(motionOf(trial));
   kick.forward = way.x();
@@ -59,6 +58,9 @@ bool Kick::missed() const {
 }
 bool Kick::tooShort() const {
   return forward < kShort;
+}
+bool Kick::clears(const motion::KickHead& head) const {
+  return height >= head.clears && landing <= head.lands;
 }
 double Kick::direction() const {
   return std::atan2(aside, forward);

@@ -20,6 +20,7 @@
 #include "nonet/motion/walk/engine.h"
 #include "nonet/world/ball_law.h"
 
+#include "lab/trial/ball_flight.h"
 #include "lab/trial/kicker.h"
 
 namespace nonet::lab {
@@ -160,7 +161,8 @@ struct SwingTrial::Implementation {
     double over = 0.0;  // s since the end of the skill
     double tilt = trueTilt(world, robot);
     bool settled = false;
-    Vector2 from = ball().p_FB.head<2>();
+    const Vector2 from = ball().p_FB.head<2>();
+    BallFlight flight(from);
     const Pose2 aim(from, direction);
     while (over < kStands && !settled && !result.fell) {
       if (player.running()) {
@@ -177,7 +179,7 @@ struct SwingTrial::Implementation {
         result.time = time;
       }
       result.ballSpeed = std::max(result.ballSpeed, now.v_FB.norm());
-      if (result.height == 0.0 && (now.p_FB.head<2>() - from).norm() > 1.0) result.height = now.p_FB.z();
+      flight.note(now);
       const double tiltBefore = std::exchange(tilt, trueTilt(world, robot));
       if (result.contact) {
         swing.lean = std::max(swing.lean, tilt);
@@ -188,6 +190,7 @@ struct SwingTrial::Implementation {
       if (over > 0.0 && !result.contact) break;
       if (result.contact && time > result.time + kOnItsWay && goesElsewhere()) break;
     }
+    flight.tell(result);
     const Vector2 way = aim.inverse() * world::restPlace(ball());
     result.forward = way.x();
     result.aside = way.y();

@@ -47,6 +47,8 @@ struct KickStatistics {
   double withinTen = 0.0;     // share of all that went within 10 degrees of the target
   double falls = 0.0;         // share of all
   double misses = 0.0;        // share of all
+  bool chip = false;
+  double clears = 0.0;  // of a chip: share of all that were high enough a metre on and came down soon enough
   std::vector<Kick> kicks;
 };
 

@@ -28,14 +28,16 @@ struct Kick {
   double forward = 0.0;       // m that the ball went towards the target, until it rolled out
   double aside = 0.0;         // m to the left of it
   double height = 0.0;        // m, of the ball's centre a metre from where it lay
+  double landing = 0.0;       // m from where it lay to where it first came down; 0: it did not fly
   double time = 0.0;          // s until contact
   double ballSpeed = 0.0;     // m/s, the fastest
   bool fell = false;          // within two seconds after contact, or before
   std::vector<Vector3> path;  // of the ball: x towards the target, y left, from where it lay, m
 
   bool missed() const;
-  bool tooShort() const;     // under 2 m
-  double direction() const;  // rad, positive to the left
+  bool tooShort() const;                            // under 2 m
+  bool clears(const motion::KickHead& head) const;  // as high as a chip is to be, and down soon enough
+  double direction() const;                         // rad, positive to the left
 };
 
 /// The same arguments always give the same kick.
