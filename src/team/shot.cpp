@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <optional>
+#include <utility>
 
 #include "nonet/math/direction.h"
 #include "nonet/team/ball_play.h"
@@ -20,14 +20,6 @@ double scores(const world::WorldState& world, const motion::KickHead& kick, cons
   return hitsGoal(world, directionOf(way), p.spread) * kick.fliesBelow(world.field.goalHeight, distance);
 }
 
-// A chip only where no other kick serves: it is slower and goes less far.
-struct Rated {
-  bool low = false;
-  double value = 0.0;
-
-  auto operator<=>(const Rated&) const = default;
-};
-
 }  // namespace
 
 std::optional<Shot> bestShot(const world::WorldState& world, std::span<const motion::KickOption> kicks,
@@ -37,7 +29,7 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   if ((goal - ball).norm() > p.distance) return std::nullopt;
   const double side = world.field.post() - p.postMargin;
   std::optional<Shot> best;
-  Rated most;
+  std::pair<bool, double> most{false, 0.0};
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
     for (const motion::KickOption& kick : kicks) {
@@ -45,7 +37,8 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
       const double hits = scores(world, kick.head, place - ball, p);
       if (hits < p.hits) continue;
       const double lane = laneWidth(world, ball, place, p.widest, kick.head);
-      const Rated rated{!kick.head.isChip(), hits * lane};
+      // A chip, which is slower and goes less far, only where no other kick serves.
+      const std::pair rated{!kick.head.isChip(), hits * lane};
       if (lane < p.lane || rated <= most) continue;
       most = rated;
       // A kick that goes as far as it is asked to is asked for all.
