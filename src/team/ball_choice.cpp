@@ -65,11 +65,11 @@ void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoi
     const motion::KickHead& head = kick.head;
     if (kick.foot != model::Side::Left || !head.isStraight() || head.scales || head.isChip()) continue;
     if (head.room > s.nearestOpponent) continue;
-    const double length = p.length * kick.head.longest;
+    const double length = p.length * head.longest;
     for (int i = fan.from; i <= fan.to; ++i) {
       const double direction = wrapAngle(fan.middle + kStep * i);
       const Vector2 target = s.ball() + length * unitVector(direction);
-      double value = valueOf(kick.head, direction, length);
+      double value = valueOf(head, direction, length);
       if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
       if (record != nullptr) record->add(target, value);
       if (value <= best.value) continue;

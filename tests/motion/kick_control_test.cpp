@@ -75,24 +75,30 @@ TEST_F(Control, TakesTheOneThatIsNamed) {
   EXPECT_EQ(step(kick).option, nullptr);
 }
 
+// What a robot of type 0 has that stands and can do these kicks.
+struct Kicks {
+  explicit Kicks(const char* skills) : library(parseSkills(skills, "test.skl")) {}
+
+  SkillLibrary library;
+  KickCatalogue catalogue{library, 0};
+  WalkEngine walk{model::robotModel(0)};
+};
+
 // Of two that lie equally near, the one that scales is for passes only, and only where the other would go too
 // far.
 TEST(KickChoice, TakesKicksThatScaleForPasses) {
-  const SkillLibrary library(parseSkills(
+  const Kicks kicks(
       "skill kick_far { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..10m contact 0.3s from walk }\n"
       "wait 0.1s }\n"
       "skill kick_soft { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 2m..6m contact 0.3s from walk }\n"
-      "move over 0.2s { left.knee -0.1rad * distance } }",
-      "test.skl"));
-  const KickCatalogue catalogue(library, 0);
-  const WalkEngine walk(model::robotModel(0));
+      "move over 0.2s { left.knee -0.1rad * distance } }");
   const auto asked = [&](double distance, bool stops) {
-    KickControl control(catalogue, KickParameters{});
+    KickControl control(kicks.catalogue, KickParameters{});
     KickTo kick;
     kick.ball = {0.2, 0.05};
     kick.target = kick.ball + Vector2(distance, 0.0);
     kick.stops = stops;
-    return control.update(kick, walk, 0.0);
+    return control.update(kick, kicks.walk, 0.0);
   };
   for (const double distance : {2.0, 4.0, 6.0, 7.9}) {
     EXPECT_EQ(asked(distance, true).option->name, "kick_soft") << distance;
@@ -103,22 +109,19 @@ TEST(KickChoice, TakesKicksThatScaleForPasses) {
 }
 
 TEST(KickChoice, ChipsAreForThoseWhoAskForOne) {
-  const SkillLibrary library(
-      parseSkills("skill kick_low { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..12m contact 0.3s "
-                  "from walk } }\n"
-                  "skill kick_over { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 2m..5m clears 0.7m "
-                  "within 4m contact "
-                  "0.3s from walk } }",
-                  "test.skl"));
-  const KickCatalogue catalogue(library, 0);
-  const WalkEngine walk(model::robotModel(0));
-  KickControl control(catalogue, KickParameters{});
+  const Kicks kicks(
+      "skill kick_low { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..12m contact 0.3s "
+      "from walk } }\n"
+      "skill kick_over { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 2m..5m clears 0.7m "
+      "within 4m contact "
+      "0.3s from walk } }");
+  KickControl control(kicks.catalogue, KickParameters{});
   KickTo kick;
   kick.ball = {0.2, 0.05};
   kick.target = {2.2, 0.05};
-  EXPECT_EQ(control.update(kick, walk, 0.0).option->name, "kick_low") << "a metre too far";
+  EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option->name, "kick_low") << "a metre too far";
   kick.kick = std::string_view("kick_over");
-  EXPECT_EQ(control.update(kick, walk, 0.0).option->name, "kick_over");
+  EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option->name, "kick_over");
 }
 
 TEST_F(Control, KeepsItsChoiceThroughSmallChanges) {

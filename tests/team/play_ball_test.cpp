@@ -116,24 +116,24 @@ TEST(PlayBall, ShootsWithAnOpponentBesideItIfTheWayIsFree) {
   EXPECT_FALSE(kicks(10.0, {10.0, 0.2}, 7.0)) << "no room";
 }
 
-// The oracle: which of the places between the posts a straight line reaches past everybody.
+motion::KickOption kickFor(const char* name, double longest) {
+  motion::KickOption kick;
+  kick.name = name;
+  kick.head.shortest = 2.0;
+  kick.head.longest = longest;
+  return kick;
+}
+
 TEST(PlayBall, ChipsOnlyOverSomebody) {
   world::WorldState world;
   world.ball.p_FB = Vector3(10.8, 0.0, 0.042);
-  motion::KickOption chip;
-  chip.name = "chip";
-  chip.head.shortest = 2.0;
-  chip.head.longest = 5.0;
+  motion::KickOption chip = kickFor("chip", 5.0);
   chip.head.apex = 1.05;
   chip.head.apexAt = 1.8;
   chip.head.apexSpread = 0.15;
   chip.head.clears = 0.7;
   chip.head.lands = 4.0;
-  motion::KickOption low;
-  low.name = "low";
-  low.head.shortest = 2.0;
-  low.head.longest = 8.0;
-  const std::array kicks{chip, low};
+  const std::array kicks{chip, kickFor("low", 8.0)};
   const auto shot = [&] {
     const std::optional<Shot> best = bestShot(world, kicks, {});
     return best ? std::string(best->kick) : "none";
@@ -144,16 +144,12 @@ TEST(PlayBall, ChipsOnlyOverSomebody) {
   EXPECT_EQ(shot(), "chip") << "a wall of three where the ball is highest";
 }
 
+// The oracle: which of the places between the posts a straight line reaches past everybody.
 TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
   world::WorldState world;
   world.ball.p_FB = Vector3(10.0, 0.0, 0.042);
-  motion::KickOption low;
-  low.name = "low";
-  low.head.shortest = 2.0;
-  low.head.longest = 8.0;
-  motion::KickOption high = low;
-  high.name = "high";
-  high.head.longest = 12.0;
+  const motion::KickOption low = kickFor("low", 8.0);
+  motion::KickOption high = kickFor("high", 12.0);
   high.head.apex = 1.2;
   high.head.apexAt = 2.8;
   high.head.apexSpread = 0.2;

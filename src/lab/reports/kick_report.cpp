@@ -42,7 +42,7 @@ KickStatistics statisticsOf(const std::string& name, const motion::KickHead& hea
   KickStatistics s;
   s.name = name;
   s.trials = static_cast<int>(kicks.size());
-  s.chip = head.isChip();
+  if (head.isChip()) s.clears = 0.0;
   const auto share = 1.0 / static_cast<double>(s.trials);
   std::vector<double> distances;
   std::vector<double> reached;
@@ -54,7 +54,7 @@ KickStatistics statisticsOf(const std::string& name, const motion::KickHead& hea
   for (const Kick& kick : kicks) {
     s.falls += kick.fell ? share : 0.0;
     s.misses += kick.missed() ? share : 0.0;
-    s.clears += head.isChip() && kick.clears(head) ? share : 0.0;
+    if (s.clears) *s.clears += kick.clears(head) ? share : 0.0;
     s.under2m += kick.tooShort() ? share : 0.0;
     distances.push_back(kick.forward);
     reached.push_back(kick.forward / asked);
@@ -137,9 +137,9 @@ std::string kickReportTable(const std::vector<KickStatistics>& report) {
         s.time.mean, s.height.mean);
   }
   for (const KickStatistics& s : report)
-    if (s.chip)
+    if (s.clears)
       out += fmt::format("{:<20} {:.1f}% high enough a metre on, and down soon enough\n", s.name,
-                         100.0 * s.clears);
+                         100.0 * *s.clears);
   out += "\nwhat the heads should say of the balls' flights:\n";
   for (const KickStatistics& s : report)
     out += fmt::format("{:<20} flies {:.2f}m at {:.1f}m within {:.2f}m\n", s.name, s.apex.median,
@@ -165,7 +165,7 @@ std::string kickReportJson(const std::vector<KickStatistics>& report, const Kick
                     {"within_10_deg", s.withinTen},
                     {"misses", s.misses},
                     {"falls", s.falls}};
-    if (s.chip) json[s.name]["clears"] = s.clears;
+    if (s.clears) json[s.name]["clears"] = *s.clears;
   }
   return json.dump(2) + "\n";
 }

@@ -12,11 +12,12 @@
 #include "nonet/math/direction.h"
 #include "nonet/world/ball_law.h"
 
+#include "lab/trial/ball_touch.h"
+
 namespace nonet::lab {
 namespace {
 
 using protocol::PlayMode;
-using sim::ContactParty;
 
 constexpr double kLiesStill = 0.05;  // m/s
 constexpr double kLongest = 10.0;    // s
@@ -25,23 +26,6 @@ constexpr double kHalf = 0.5;
 world::BallMotion ballOf(const sim::Simulation& simulation) {
   const sim::World& world = simulation.world();
   return {world.ballPosition().cast<double>(), world.ballVelocity().cast<double>()};
-}
-
-/// Who touched the ball in the last step.
-struct Touches {
-  bool kicker = false;
-  bool other = false;
-};
-Touches touchesOf(const sim::Simulation& simulation, sim::RobotHandle kicker) {
-  Touches touches;
-  for (const sim::ContactPair& pair : simulation.world().contacts()) {
-    const bool ballFirst = pair.first.kind == ContactParty::Kind::Ball;
-    if (!ballFirst && pair.second.kind != ContactParty::Kind::Ball) continue;
-    const ContactParty& party = ballFirst ? pair.second : pair.first;
-    if (party.kind != ContactParty::Kind::Robot) continue;
-    (party.robot == kicker ? touches.kicker : touches.other) = true;
-  }
-  return touches;
 }
 
 bool isGoal(PlayMode mode) {
@@ -108,9 +92,9 @@ void MatchKicks::afterThought(const Thought& thought) {
 }
 
 bool MatchKicks::isOver(const sim::Simulation& simulation, sim::RobotHandle robot, Open& open) {
-  const Touches touches = touchesOf(simulation, robot);
+  const BallTouches touches = ballTouches(simulation.world(), robot);
   MatchKick& kick = open.kick;
-  kick.contact = kick.contact || (touches.kicker && open.runs);
+  kick.contact = kick.contact || (touches.robot && open.runs);
   if (!kick.contact) return !open.runs || touches.other;
   const PlayMode mode = simulation.match().playMode;
   if (isGoal(mode)) {
@@ -119,12 +103,12 @@ bool MatchKicks::isOver(const sim::Simulation& simulation, sim::RobotHandle robo
     return true;
   }
   const bool interrupted = mode != PlayMode::PlayOn && mode != open.mode;
-  if (interrupted || touches.other || (touches.kicker && !open.runs)) return true;
+  if (interrupted || touches.other || (touches.robot && !open.runs)) return true;
   const world::BallMotion ball = ballOf(simulation);
   const Pose2 X_AimW = open.X_WAim->inverse();
   kick.carried = (X_AimW * world::restPlace(ball)).x();
   kick.went = (X_AimW * Vector2(ball.p_FB.head<2>())).x();
-  const bool stopped = !open.runs && !touches.kicker && ball.v_FB.norm() < kLiesStill;
+  const bool stopped = !open.runs && !touches.robot && ball.v_FB.norm() < kLiesStill;
   return stopped || simulation.match().serverTime > open.began + kLongest;
 }
 

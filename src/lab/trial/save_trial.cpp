@@ -9,6 +9,8 @@
 #include "nonet/model/ball.h"
 #include "nonet/team/goalie.h"
 
+#include "lab/trial/ball_touch.h"
+
 namespace nonet::lab {
 
 namespace {
@@ -96,11 +98,9 @@ class Watcher {
 
   void step() {
     trial_.step();
-    for (const sim::ContactPair& pair : trial_.simulation().world().contacts()) {
-      const bool ball = isBall(pair.first) || isBall(pair.second);
-      const bool goalie = isRobot(pair.first) || isRobot(pair.second);
-      save_.touched = save_.touched || (ball && goalie);
-    }
+    const sim::World& world = trial_.simulation().world();
+    // The goalie's robot was built first.
+    save_.touched = save_.touched || ballTouches(world, world.robots().front()).robot;
     noteAnswer();
     noteFall();
     if (over_) return;
@@ -114,13 +114,6 @@ class Watcher {
   bool stands() const { return trial_.time() - downAt_ > kStands; }
 
  private:
-  static bool isBall(const sim::ContactParty& party) { return party.kind == sim::ContactParty::Kind::Ball; }
-  // The goalie's robot was built first.
-  bool isRobot(const sim::ContactParty& party) const {
-    return party.kind == sim::ContactParty::Kind::Robot &&
-           party.robot == trial_.simulation().world().robots().front();
-  }
-
   void noteAnswer() {
     const team::Action& action = trial_.action(0);
     if (over_ || !save_.answer.empty()) return;

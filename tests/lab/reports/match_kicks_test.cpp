@@ -1,5 +1,5 @@
-// Oracles: shares reckoned by hand, and matches whose end is known: one robot alone that kicks, and the same
-// match without the measurement.
+// Oracles: shares reckoned by hand, and matches whose end is known: three robots alone that kick, and the
+// same match without the measurement.
 #include "nonet/lab/reports/match_kicks.h"
 
 #include <gtest/gtest.h>
@@ -32,10 +32,10 @@ struct Played {
   MatchKicks kicks;
   MatchResult result;
 };
-Played played(int left, int right, bool watched) {
+Played played(bool watched) {
   MatchSettings match;
-  match.left.players = left;
-  match.right.players = right;
+  match.left.players = 3;
+  match.right.players = 0;
   match.minutes = 1.0;
   match.kickOffWait = 2.0;
   match.settings.quickSolver = true;
@@ -53,7 +53,7 @@ Played played(int left, int right, bool watched) {
 }
 
 TEST(MatchKicks, GoAsFarAsMeantWhereNobodyIsInTheWay) {
-  const Played alone = played(3, 0, true);
+  const Played alone = played(true);
   const KickShares shares = kickShares(alone.kicks.kicks());
   ASSERT_GE(shares.kicks, 3);
   EXPECT_GE(shares.intended, 2.0);
@@ -69,7 +69,7 @@ TEST(MatchKicks, GoAsFarAsMeantWhereNobodyIsInTheWay) {
       EXPECT_EQ(kick.carried, 0.0);
     }
   }
-  EXPECT_EQ(played(3, 0, false).result.signature, alone.result.signature);
+  EXPECT_EQ(played(false).result.signature, alone.result.signature);
 }
 
 }  // namespace

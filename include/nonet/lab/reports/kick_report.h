@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,20 +36,19 @@ struct KickFigure {
 struct KickStatistics {
   std::string name;
   int trials = 0;
-  KickFigure distance;        // m towards the target; a miss counts with what it made
-  KickFigure reached;         // share of the distance asked for
-  KickFigure height;          // m, of the ball's centre a metre from where it lay
-  KickFigure apex;            // m, of the ball's centre where it is highest, of the kicks that hit
-  KickFigure apexAt;          // m from where the ball lay to there
-  double apexSpread = 0.0;    // m, standard deviation of heights
-  KickFigure directionError;  // rad, of the kicks that hit
-  KickFigure time;            // s until contact, of the kicks that hit
-  double under2m = 0.0;       // share of all
-  double withinTen = 0.0;     // share of all that went within 10 degrees of the target
-  double falls = 0.0;         // share of all
-  double misses = 0.0;        // share of all
-  bool chip = false;
-  double clears = 0.0;  // of a chip: share of all that were high enough a metre on and came down soon enough
+  KickFigure distance;           // m towards the target; a miss counts with what it made
+  KickFigure reached;            // share of the distance asked for
+  KickFigure height;             // m, of the ball's centre a metre from where it lay
+  KickFigure apex;               // m, of the ball's centre where it is highest, of the kicks that hit
+  KickFigure apexAt;             // m from where the ball lay to there
+  double apexSpread = 0.0;       // m, standard deviation of heights
+  KickFigure directionError;     // rad, of the kicks that hit
+  KickFigure time;               // s until contact, of the kicks that hit
+  double under2m = 0.0;          // share of all
+  double withinTen = 0.0;        // share of all that went within 10 degrees of the target
+  double falls = 0.0;            // share of all
+  double misses = 0.0;           // share of all
+  std::optional<double> clears;  // of a chip: share of all that were high enough and came down soon enough
   std::vector<Kick> kicks;
 };
 
