@@ -123,7 +123,7 @@ double ParticleFilter::logLikelihood(const Pose2& X_WR, const GroundObservations
     for (std::uint32_t bits = segment.candidates; bits != 0; bits &= bits - 1) {
       const FieldLine& line = map.lines()[static_cast<std::size_t>(std::countr_zero(bits))];
       double sum = 0.0;
-      for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t side = 0; side < 2 && sum < best; ++side) {
         const Vector2 target = (side == 0 ? line.begin : line.end).head<2>();
         const double squared =
             segment.clipped[side] ? squaredDistance(line, ends[side]) : (ends[side] - target).squaredNorm();

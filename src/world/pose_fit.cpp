@@ -114,8 +114,10 @@ struct PoseFit::Problem {
   }
 
   void add(const Jacobian& J, const Vector3& r, int rows) {
-    // Eigen would take its way for large matrices.
-    normal.noalias() += J.transpose().lazyProduct(J);
+    // Eigen would take its way for large matrices, and reckon the upper half as well.
+    for (int column = 0; column < J.cols(); ++column) {
+      for (int row = column; row < J.cols(); ++row) normal(row, column) += J.col(row).dot(J.col(column));
+    }
     gradient.noalias() += J.transpose() * r;
     measurementCost += r.squaredNorm();
     residuals += rows;
@@ -175,6 +177,7 @@ double PoseFit::linearise(Problem& problem) const {
       }
     }
   }
+  problem.normal.triangularView<Eigen::StrictlyUpper>() = problem.normal.transpose();
   const BeliefVector d = problem.distance();
   return problem.measurementCost + d.dot(problem.information * d);
 }

@@ -158,7 +158,7 @@ void ArticulatedBodySolver::computeInertias() {
     if (free) inertia -= joint.axisMomentum * joint.axisMomentum.transpose() / joint.axisInertia;
     Matrix6 middle = compliance_ * inertia;
     middle.diagonal().array() += 1.0;
-    joint.transmission = SmallCholesky(middle).solve(Matrix6::Identity());
+    joint.transmission = SmallCholesky(middle).inverse();
     if (!free) {
       const double more = joint.axisCompliance - compliance_;
       const Vector6 momentum = joint.transmission * joint.axisMomentum;

@@ -35,34 +35,45 @@ class SmallCholesky {
   }
 
   Matrix6 solve(const Matrix6& right) const {
-    Eigen::Matrix<double, 6, 6, Eigen::RowMajor> x = right;
-    forward<0, 4>(x);
-    for (int r = 4; r < 6; ++r) subtract(x, r, 0, [this, r](int k) { return lower_[r][k]; });
-    forward<4, 6>(x);
-    backward<2, 6>(x);
-    for (int r = 0; r < 2; ++r) subtract(x, r, 2, [this, r](int k) { return lower_[k][r]; });
-    backward<0, 2>(x);
-    return x;
+    Rows x = right;
+    return solveInPlace<6>(x);
+  }
+
+  /// solve(identity): on the way down the upper rows have nothing in the last columns.
+  Matrix6 inverse() const {
+    Rows x = Rows::Identity();
+    return solveInPlace<4>(x);
   }
 
  private:
   using Rows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
+  /// `Columns`: in the first four rows all later ones are zero.
+  template <int Columns>
+  Matrix6 solveInPlace(Rows& x) const {
+    forward<0, 4, Columns>(x);
+    for (int r = 4; r < 6; ++r) subtract<Columns>(x, r, 0, [this, r](int k) { return lower_[r][k]; });
+    forward<4, 6, 6>(x);
+    backward<2, 6>(x);
+    for (int r = 0; r < 2; ++r) subtract<6>(x, r, 2, [this, r](int k) { return lower_[k][r]; });
+    backward<0, 2>(x);
+    return x;
+  }
   /// Row r minus the sum over four rows from `first` on.
-  template <typename Factor>
+  template <int Columns, typename Factor>
   static void subtract(Rows& x, int r, int first, const Factor& factor) {
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < Columns; ++j) {
       double sum = 0.0;
       for (int k = first; k < first + 4; ++k) sum += factor(k) * x(k, j);
       x(r, j) -= sum;
     }
   }
-  template <int Begin, int End>
+  template <int Begin, int End, int Columns>
   void forward(Rows& x) const {
     for (int i = Begin; i < End; ++i) {
-      for (int j = 0; j < 6; ++j) x(i, j) *= inverse_[i];
+      for (int j = 0; j < Columns; ++j) x(i, j) *= inverse_[i];
       for (int r = i + 1; r < End; ++r) {
-        for (int j = 0; j < 6; ++j) x(r, j) -= x(i, j) * lower_[r][i];
+        for (int j = 0; j < Columns; ++j) x(r, j) -= x(i, j) * lower_[r][i];
       }
     }
   }

@@ -15,6 +15,7 @@ void RefereeContext::recordFoul(FoulType type, const Player& player) {
 
 std::vector<Player*> RefereeContext::team(TeamSide side) {
   std::vector<Player*> members;
+  members.reserve(players.size());
   for (Player& player : players) {
     if (side == TeamSide::None || player.side == side) members.push_back(&player);
   }

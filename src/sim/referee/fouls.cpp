@@ -98,7 +98,8 @@ void Fouls::measure(TeamSide side) {
   }
   const Vector3f ball = c_.world.ballPosition();
   const Vector3f ownGoal(side == TeamSide::Left ? -c_.halfLength() : c_.halfLength(), 0.0F, 0.0F);
-  for (const Player* player : c_.team(side)) {
+  const std::vector<Player*> players = c_.team(side);
+  for (const Player* player : players) {
     PlayerRecord& record = c_.records.of(*player);
     const Vector3f torso = c_.sceneTorso(*player);
     record.ballDistance = horizontalDistance(torso, ball);
@@ -116,21 +117,22 @@ void Fouls::measure(TeamSide side) {
     }
     countPosture(*player, torso.z(), torso.y());
   }
-  rank(side, &PlayerRecord::ballDistance, &PlayerRecord::ballRank);
-  rank(side, &PlayerRecord::goalDistance, &PlayerRecord::goalRank);
+  rank(players, &PlayerRecord::ballDistance, &PlayerRecord::ballRank);
+  rank(players, &PlayerRecord::goalDistance, &PlayerRecord::goalRank);
 }
 
 // Rank 1 is the nearest. Of two equal ones the smaller number counts as farther.
-void Fouls::rank(TeamSide side, float PlayerRecord::*distance, int PlayerRecord::*rank) {
-  for (int a = 1; a <= kMaxUnum; ++a) {
-    PlayerRecord& first = c_.records.of(side, a);
-    if (c_.hasFoul(side, a)) {
+void Fouls::rank(const std::vector<Player*>& players, float PlayerRecord::*distance,
+                 int PlayerRecord::*rank) {
+  for (const Player* player : players) {
+    PlayerRecord& first = c_.records.of(*player);
+    if (c_.hasFoul(*player)) {
       first.*rank = -1;
       continue;
     }
-    for (int b = a + 1; b <= kMaxUnum; ++b) {
-      if (c_.hasFoul(side, b)) continue;
-      PlayerRecord& second = c_.records.of(side, b);
+    for (const Player* other : players) {
+      if (other->unum <= player->unum || c_.hasFoul(*other)) continue;
+      PlayerRecord& second = c_.records.of(*other);
       ++((first.*distance >= second.*distance ? first : second).*rank);
     }
   }

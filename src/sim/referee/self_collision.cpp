@@ -1,6 +1,8 @@
 // Self-collision (server facts 4.10): box colliders of one robot that overlap freeze the joints of their
 // limbs.
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -100,8 +102,39 @@ bool excluded(BodyId a, BodyId b) {
          pair(BodyId::RFoot, BodyId::RToe) || pair(BodyId::LFoot, BodyId::LToe);
 }
 
-Vector3f serverSize(const model::BodySpec& body) {
-  return scene::extentsInServerAxes(body.shape.size).cast<float>();
+// A box that the referee looks at, and the sphere about it.
+struct Box {
+  BodyId body;
+  Vector3f size;
+  float radius;
+};
+
+std::vector<Box> boxesOf(int robotType) {
+  std::vector<Box> boxes;
+  for (const model::BodySpec& body : model::robotModel(robotType).bodies()) {
+    if (!body.collider || body.shape.kind != model::ShapeKind::Box) continue;
+    const Vector3f size = scene::extentsInServerAxes(body.shape.size).cast<float>();
+    boxes.push_back({body.id, size, 0.5F * size.norm()});
+  }
+  return boxes;
+}
+
+// Of each robot type, found once.
+const std::vector<Box>& boxes(int robotType) {
+  static const auto all = [] {
+    std::array<std::vector<Box>, model::kRobotTypeCount> found;
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = boxesOf(static_cast<int>(i));
+    return found;
+  }();
+  return all[static_cast<std::size_t>(robotType)];
+}
+
+// Boxes whose spheres are apart by this are apart whatever rounding does.
+constexpr float kSurelyApart = 0.01F;  // m
+
+bool farApart(const Vector3f& between, const Box& a, const Box& b) {
+  const float reach = a.radius + b.radius + kSurelyApart;
+  return between.squaredNorm() > reach * reach;
 }
 
 }  // namespace
@@ -109,17 +142,14 @@ Vector3f serverSize(const model::BodySpec& body) {
 void Fouls::judgeSelfCollisions(TeamSide side) {
   const float tolerance = static_cast<float>(c_.settings.selfCollisionsTolerance);
   for (const Player* player : c_.team(side)) {
-    std::vector<const model::BodySpec*> boxes;
-    for (const model::BodySpec& body : model::robotModel(player->robotType).bodies()) {
-      if (body.collider && body.shape.kind == model::ShapeKind::Box) boxes.push_back(&body);
-    }
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const ScenePose& a = c_.world.bodyPose(player->robot, boxes[i]->id);
-      for (std::size_t j = i + 1; j < boxes.size(); ++j) {
-        if (excluded(boxes[i]->id, boxes[j]->id)) continue;
-        const ScenePose& b = c_.world.bodyPose(player->robot, boxes[j]->id);
-        if (boxesOverlap(a, serverSize(*boxes[i]), b, serverSize(*boxes[j]), tolerance)) {
-          selfCollision(*player, boxes[i]->id, boxes[j]->id);
+    const std::vector<Box>& all = boxes(player->robotType);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const ScenePose& a = c_.world.bodyPose(player->robot, all[i].body);
+      for (std::size_t j = i + 1; j < all.size(); ++j) {
+        const ScenePose& b = c_.world.bodyPose(player->robot, all[j].body);
+        if (farApart(b.position - a.position, all[i], all[j]) || excluded(all[i].body, all[j].body)) continue;
+        if (boxesOverlap(a, all[i].size, b, all[j].size, tolerance)) {
+          selfCollision(*player, all[i].body, all[j].body);
         }
       }
     }

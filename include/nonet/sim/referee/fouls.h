@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "nonet/sim/referee/context.h"
 #include "nonet/sim/referee/placing.h"
@@ -38,7 +39,7 @@ class Fouls {
  private:
   void measure(TeamSide side);
   void countPosture(const Player& player, float height, float y);
-  void rank(TeamSide side, float PlayerRecord::*distance, int PlayerRecord::*rank);
+  void rank(const std::vector<Player*>& players, float PlayerRecord::*distance, int PlayerRecord::*rank);
   void resetPlayer(PlayerRecord& record) const;
   /// The player's foul begins, or goes on for another cycle.
   static void countFoul(PlayerRecord& record, FoulType foul);
