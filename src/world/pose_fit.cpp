@@ -83,7 +83,7 @@ struct PoseFit::Problem {
   bool useLines = false;
 
   // Result of linearise().
-  MeasuredMatrix normal = MeasuredMatrix::Zero();
+  MeasuredMatrix normal = MeasuredMatrix::Zero();  // add() knows its lower half only
   MeasuredVector gradient = MeasuredVector::Zero();
   int residuals = 0;
   double measurementCost = 0.0;

@@ -34,23 +34,17 @@ class SmallCholesky {
     }
   }
 
-  Matrix6 solve(const Matrix6& right) const {
-    Rows x = right;
-    return solveInPlace<6>(x);
-  }
+  Matrix6 solve(const Matrix6& right) const { return solved<6>(right); }
 
   /// solve(identity): on the way down the upper rows have nothing in the last columns.
-  Matrix6 inverse() const {
-    Rows x = Rows::Identity();
-    return solveInPlace<4>(x);
-  }
+  Matrix6 inverse() const { return solved<4>(Rows::Identity()); }
 
  private:
   using Rows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-  /// `Columns`: in the first four rows all later ones are zero.
+  /// Of the right sides x. `Columns`: in the first four rows all later ones are zero.
   template <int Columns>
-  Matrix6 solveInPlace(Rows& x) const {
+  Matrix6 solved(Rows x) const {
     forward<0, 4, Columns>(x);
     for (int r = 4; r < 6; ++r) subtract<Columns>(x, r, 0, [this, r](int k) { return lower_[r][k]; });
     forward<4, 6, 6>(x);

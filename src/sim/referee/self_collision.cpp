@@ -126,7 +126,7 @@ const std::vector<Box>& boxes(int robotType) {
     for (std::size_t i = 0; i < found.size(); ++i) found[i] = boxesOf(static_cast<int>(i));
     return found;
   }();
-  return all[static_cast<std::size_t>(robotType)];
+  return all.at(static_cast<std::size_t>(robotType));
 }
 
 // Boxes whose spheres are apart by this are apart whatever rounding does.
