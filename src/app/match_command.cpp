@@ -247,7 +247,8 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->needs(inProcess);
   command
       ->add_flag("--kicks", arguments->kicks,
-                 "With --in-process: how far each kick was meant to go and how far the ball went")
+                 "With --in-process: how far each kick was meant to go, how far the ball went and how far "
+                 "off its way")
       ->needs(inProcess);
   command
       ->add_option("--threads", arguments->threads,

@@ -9,6 +9,7 @@
 #include "nonet/lab/common/statistics.h"
 #include "nonet/lab/trial/kick_trial.h"
 #include "nonet/lab/trial/true_pose.h"
+#include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/world/ball_law.h"
 
@@ -33,9 +34,14 @@ bool isGoal(PlayMode mode) {
 }
 
 nlohmann::ordered_json json(const KickShares& shares) {
-  return {{"kicks", shares.kicks},           {"missed", shares.missed},
-          {"intended_m", shares.intended},   {"carried_of_intended", shares.carried},
-          {"went_of_intended", shares.went}, {"under_half", shares.underHalf}};
+  return {{"kicks", shares.kicks},
+          {"missed", shares.missed},
+          {"intended_m", shares.intended},
+          {"carried_of_intended", shares.carried},
+          {"went_of_intended", shares.went},
+          {"under_half", shares.underHalf},
+          {"direction_error_deg", toDegrees(shares.aside)},
+          {"direction_error_p90_deg", toDegrees(shares.asideTenth)}};
 }
 
 using Groups = std::map<std::string, std::map<std::string, std::vector<MatchKick>>>;
@@ -56,17 +62,21 @@ KickShares kickShares(const std::vector<MatchKick>& kicks) {
   KickShares shares;
   shares.kicks = static_cast<int>(kicks.size());
   if (kicks.empty()) return shares;
-  std::vector<double> intended, carried, went;
+  std::vector<double> intended, carried, went, aside;
   for (const MatchKick& kick : kicks) {
     intended.push_back(kick.intended);
     carried.push_back(kick.carriedShare());
     went.push_back(kick.wentShare());
+    if (kick.contact) aside.push_back(std::abs(kick.aside));
     shares.missed += kick.contact ? 0.0 : 1.0 / shares.kicks;
     shares.underHalf += kick.carriedShare() < kHalf ? 1.0 / shares.kicks : 0.0;
   }
   shares.intended = quantile(intended, 0.5);
   shares.carried = quantile(carried, 0.5);
   shares.went = quantile(went, 0.5);
+  if (aside.empty()) return shares;
+  shares.aside = quantile(aside, 0.5);
+  shares.asideTenth = quantile(aside, 0.9);
   return shares;
 }
 
@@ -106,7 +116,9 @@ bool MatchKicks::isOver(const sim::Simulation& simulation, sim::RobotHandle robo
   if (interrupted || touches.other || (touches.robot && !open.runs)) return true;
   const world::BallMotion ball = ballOf(simulation);
   const Pose2 X_AimW = open.X_WAim->inverse();
-  kick.carried = (X_AimW * world::restPlace(ball)).x();
+  const Vector2 rest = X_AimW * world::restPlace(ball);
+  kick.carried = rest.x();
+  kick.aside = directionOf(rest);
   kick.went = (X_AimW * Vector2(ball.p_FB.head<2>())).x();
   const bool stopped = !open.runs && !touches.robot && ball.v_FB.norm() < kLiesStill;
   return stopped || simulation.match().serverTime > open.began + kLongest;
@@ -142,13 +154,16 @@ nlohmann::ordered_json MatchKicks::toJson() const {
 std::string MatchKicks::toText() const {
   std::string text = fmt::format(
       "\nkicks, medians; carried and went as shares of what was intended\n"
-      "{:<14} {:<16} {:>6} {:>8} {:>11} {:>8} {:>6} {:>11}\n",
-      "", "", "kicks", "missed %", "intended m", "carried", "went", "under half %");
+      "{:<14} {:<16} {:>6} {:>8} {:>11} {:>8} {:>6} {:>12} {:>8} {:>12}\n",
+      "", "", "kicks", "missed %", "intended m", "carried", "went", "under half %", "off deg",
+      "a tenth over");
   for (const auto& [team, byName] : groupsOf(kicks_)) {
     for (const auto& [name, kicks] : byName) {
       const KickShares s = kickShares(kicks);
-      text += fmt::format("{:<14} {:<16} {:>6} {:>8.0f} {:>11.1f} {:>8.2f} {:>6.2f} {:>11.0f}\n", team, name,
-                          s.kicks, 100.0 * s.missed, s.intended, s.carried, s.went, 100.0 * s.underHalf);
+      text += fmt::format(
+          "{:<14} {:<16} {:>6} {:>8.0f} {:>11.1f} {:>8.2f} {:>6.2f} {:>12.0f} {:>8.1f} {:>12.1f}\n", team,
+          name, s.kicks, 100.0 * s.missed, s.intended, s.carried, s.went, 100.0 * s.underHalf,
+          toDegrees(s.aside), toDegrees(s.asideTenth));
     }
   }
   return text;

@@ -2,6 +2,9 @@
 // same match without the measurement.
 #include "nonet/lab/reports/match_kicks.h"
 
+#include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace nonet::lab {
@@ -26,6 +29,19 @@ TEST(KickShares, AreMediansOfAll) {
   EXPECT_DOUBLE_EQ(shares.carried, 0.9);
   EXPECT_DOUBLE_EQ(shares.went, 0.3);
   EXPECT_NEAR(shares.underHalf, 1.0 / 3.0, 1e-12);
+}
+
+TEST(KickShares, JudgeTheDirectionOfThoseThatHit) {
+  std::vector<MatchKick> kicks;
+  for (int i = 0; i <= 10; ++i) {
+    kicks.push_back(kickOf(10.0, 9.0, 9.0));
+    kicks.back().aside = (i % 2 == 0 ? 0.01 : -0.01) * i;  // to either side
+  }
+  kicks.push_back(kickOf(10.0, 0.0, 0.0));  // no contact: has no direction
+  const KickShares shares = kickShares(kicks);
+  EXPECT_NEAR(shares.aside, 0.05, 1e-12);
+  EXPECT_NEAR(shares.asideTenth, 0.09, 1e-12);
+  EXPECT_EQ(kickShares({kickOf(10.0, 0.0, 0.0)}).aside, 0.0);
 }
 
 struct Played {
@@ -67,7 +83,9 @@ TEST(MatchKicks, GoAsFarAsMeantWhereNobodyIsInTheWay) {
     EXPECT_FALSE(kick.name.empty());
     if (!kick.contact) {
       EXPECT_EQ(kick.carried, 0.0);
+      EXPECT_EQ(kick.aside, 0.0);
     }
+    EXPECT_LT(std::abs(kick.aside), 0.5) << kick.name << " at " << kick.time;
   }
   EXPECT_EQ(played(false).result.signature, alone.result.signature);
 }

@@ -1,5 +1,5 @@
 // What becomes of the kicks in a match: for each kick that a player's motion began in an in-process match,
-// how far it was meant to go and how far the ball went, by the simulation's truth.
+// how far it was meant to go, how far the ball went and how far off its way, by the simulation's truth.
 #pragma once
 
 #include <map>
@@ -24,6 +24,7 @@ struct MatchKick {
   double intended = 0.0;  // what was asked for, or what the kick serves where that is less
   bool contact = false;   // the kicker touched the ball in the kick
   double carried = 0.0;   // where the ball would have come to rest, as it went when it was last free
+  double aside = 0.0;     // how far it went off the way to the target, to the left, rad; 0 without contact
   double went = 0.0;  // until somebody touched it, it left the field or lay still; a goal went all the way
 
   double carriedShare() const { return carried / intended; }
@@ -35,9 +36,11 @@ struct KickShares {
   int kicks = 0;
   double missed = 0.0;  // share without contact
   double intended = 0.0;
-  double carried = 0.0;    // median of carriedShare()
-  double went = 0.0;       // median of wentShare()
-  double underHalf = 0.0;  // share that was carried less than half as far as intended
+  double carried = 0.0;     // median of carriedShare()
+  double went = 0.0;        // median of wentShare()
+  double underHalf = 0.0;   // share that was carried less than half as far as intended
+  double aside = 0.0;       // of those with contact: median of |aside|, rad
+  double asideTenth = 0.0;  // and what a tenth of them exceeds
 };
 KickShares kickShares(const std::vector<MatchKick>& kicks);
 
