@@ -9,7 +9,7 @@ namespace nonet::team {
 /// Role positions relative to the ball (offensive group) and on the line from the own goal to the ball
 /// (backs), after [MacAlpine 2012a, section 6.1 and figure 5].
 struct FormationParameters {
-  double forwardAhead = 2.0;
+  double forwardAhead = 5.0;
   double forwardAside = 2.5;
   double wingBehind = 2.5;
   double wingAside = 2.0;
@@ -30,7 +30,7 @@ struct FormationParameters {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
-    visit({"forwardAhead", Unit::Metre, {0, 10}, search(0.5, 4), "Forwards: ahead of the ball"},
+    visit({"forwardAhead", Unit::Metre, {0, 10}, search(1, 8), "Forwards: ahead of the ball"},
           self.forwardAhead);
     visit({"forwardAside", Unit::Metre, {0, 10}, search(1, 5), "Forwards: to the side of the ball"},
           self.forwardAside);
