@@ -40,8 +40,8 @@ nlohmann::ordered_json json(const KickShares& shares) {
           {"carried_of_intended", shares.carried},
           {"went_of_intended", shares.went},
           {"under_half", shares.underHalf},
-          {"direction_error_deg", toDegrees(shares.aside)},
-          {"direction_error_p90_deg", toDegrees(shares.asideTenth)}};
+          {"direction_error_deg", toDegrees(shares.directionError)},
+          {"direction_error_p90_deg", toDegrees(shares.directionErrorTenth)}};
 }
 
 using Groups = std::map<std::string, std::map<std::string, std::vector<MatchKick>>>;
@@ -62,21 +62,21 @@ KickShares kickShares(const std::vector<MatchKick>& kicks) {
   KickShares shares;
   shares.kicks = static_cast<int>(kicks.size());
   if (kicks.empty()) return shares;
-  std::vector<double> intended, carried, went, aside;
+  std::vector<double> intended, carried, went, directions;
   for (const MatchKick& kick : kicks) {
     intended.push_back(kick.intended);
     carried.push_back(kick.carriedShare());
     went.push_back(kick.wentShare());
-    if (kick.contact) aside.push_back(std::abs(kick.aside));
+    if (kick.contact) directions.push_back(std::abs(kick.direction));
     shares.missed += kick.contact ? 0.0 : 1.0 / shares.kicks;
     shares.underHalf += kick.carriedShare() < kHalf ? 1.0 / shares.kicks : 0.0;
   }
   shares.intended = quantile(intended, 0.5);
   shares.carried = quantile(carried, 0.5);
   shares.went = quantile(went, 0.5);
-  if (aside.empty()) return shares;
-  shares.aside = quantile(aside, 0.5);
-  shares.asideTenth = quantile(aside, 0.9);
+  if (directions.empty()) return shares;
+  shares.directionError = quantile(directions, 0.5);
+  shares.directionErrorTenth = quantile(directions, 0.9);
   return shares;
 }
 
@@ -118,7 +118,7 @@ bool MatchKicks::isOver(const sim::Simulation& simulation, sim::RobotHandle robo
   const Pose2 X_AimW = open.X_WAim->inverse();
   const Vector2 rest = X_AimW * world::restPlace(ball);
   kick.carried = rest.x();
-  kick.aside = directionOf(rest);
+  kick.direction = directionOf(rest);
   kick.went = (X_AimW * Vector2(ball.p_FB.head<2>())).x();
   const bool stopped = !open.runs && !touches.robot && ball.v_FB.norm() < kLiesStill;
   return stopped || simulation.match().serverTime > open.began + kLongest;
@@ -163,7 +163,7 @@ std::string MatchKicks::toText() const {
       text += fmt::format(
           "{:<14} {:<16} {:>6} {:>8.0f} {:>11.1f} {:>8.2f} {:>6.2f} {:>12.0f} {:>8.1f} {:>12.1f}\n", team,
           name, s.kicks, 100.0 * s.missed, s.intended, s.carried, s.went, 100.0 * s.underHalf,
-          toDegrees(s.aside), toDegrees(s.asideTenth));
+          toDegrees(s.directionError), toDegrees(s.directionErrorTenth));
     }
   }
   return text;

@@ -35,13 +35,13 @@ TEST(KickShares, JudgeTheDirectionOfThoseThatHit) {
   std::vector<MatchKick> kicks;
   for (int i = 0; i <= 10; ++i) {
     kicks.push_back(kickOf(10.0, 9.0, 9.0));
-    kicks.back().aside = (i % 2 == 0 ? 0.01 : -0.01) * i;  // to either side
+    kicks.back().direction = (i % 2 == 0 ? 0.01 : -0.01) * i;  // to either side
   }
   kicks.push_back(kickOf(10.0, 0.0, 0.0));  // no contact: has no direction
   const KickShares shares = kickShares(kicks);
-  EXPECT_NEAR(shares.aside, 0.05, 1e-12);
-  EXPECT_NEAR(shares.asideTenth, 0.09, 1e-12);
-  EXPECT_EQ(kickShares({kickOf(10.0, 0.0, 0.0)}).aside, 0.0);
+  EXPECT_NEAR(shares.directionError, 0.05, 1e-12);
+  EXPECT_NEAR(shares.directionErrorTenth, 0.09, 1e-12);
+  EXPECT_EQ(kickShares({kickOf(10.0, 0.0, 0.0)}).directionError, 0.0);
 }
 
 struct Played {
@@ -83,9 +83,9 @@ TEST(MatchKicks, GoAsFarAsMeantWhereNobodyIsInTheWay) {
     EXPECT_FALSE(kick.name.empty());
     if (!kick.contact) {
       EXPECT_EQ(kick.carried, 0.0);
-      EXPECT_EQ(kick.aside, 0.0);
+      EXPECT_EQ(kick.direction, 0.0);
     }
-    EXPECT_LT(std::abs(kick.aside), 0.5) << kick.name << " at " << kick.time;
+    EXPECT_LT(std::abs(kick.direction), 0.5) << kick.name << " at " << kick.time;
   }
   EXPECT_EQ(played(false).result.signature, alone.result.signature);
 }

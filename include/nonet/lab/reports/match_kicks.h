@@ -19,12 +19,12 @@ namespace nonet::lab {
 struct MatchKick {
   std::string team;
   int unum = 0;
-  std::string name;       // of the skill
-  double time = 0.0;      // of the game when it began, s
-  double intended = 0.0;  // what was asked for, or what the kick serves where that is less
-  bool contact = false;   // the kicker touched the ball in the kick
-  double carried = 0.0;   // where the ball would have come to rest, as it went when it was last free
-  double aside = 0.0;     // how far it went off the way to the target, to the left, rad; 0 without contact
+  std::string name;        // of the skill
+  double time = 0.0;       // of the game when it began, s
+  double intended = 0.0;   // what was asked for, or what the kick serves where that is less
+  bool contact = false;    // the kicker touched the ball in the kick
+  double carried = 0.0;    // where the ball would have come to rest, as it went when it was last free
+  double direction = 0.0;  // of the ball's way, to the left of that to the target, rad; 0 without contact
   double went = 0.0;  // until somebody touched it, it left the field or lay still; a goal went all the way
 
   double carriedShare() const { return carried / intended; }
@@ -36,11 +36,11 @@ struct KickShares {
   int kicks = 0;
   double missed = 0.0;  // share without contact
   double intended = 0.0;
-  double carried = 0.0;     // median of carriedShare()
-  double went = 0.0;        // median of wentShare()
-  double underHalf = 0.0;   // share that was carried less than half as far as intended
-  double aside = 0.0;       // of those with contact: median of |aside|, rad
-  double asideTenth = 0.0;  // and what a tenth of them exceeds
+  double carried = 0.0;              // median of carriedShare()
+  double went = 0.0;                 // median of wentShare()
+  double underHalf = 0.0;            // share that was carried less than half as far as intended
+  double directionError = 0.0;       // of those with contact: median of |direction|, rad
+  double directionErrorTenth = 0.0;  // and what a tenth of them exceeds
 };
 KickShares kickShares(const std::vector<MatchKick>& kicks);
 
