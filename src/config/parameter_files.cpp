@@ -19,6 +19,7 @@ struct TomlAssertion {};
 #include <toml++/toml.h>
 
 #include "nonet/config/parameters.h"
+#include "nonet/config/toml_letters.h"
 
 #include "fields.h"
 #include "units.h"
@@ -133,6 +134,10 @@ class Reader {
 
 void overlayText(const std::vector<Field>& fields, std::string_view toml, const std::string& nameForErrors) {
   const Reader reader(fields, nameForErrors);
+  if (const std::size_t line = lineOfForeignLetter(toml)) {
+    throw ParameterError(fmt::format(
+        "{}not TOML: a letter beyond ASCII may stand in comments and in quotes only", reader.at(line)));
+  }
   toml::table table;
   try {
     table = toml::parse(toml);

@@ -165,6 +165,8 @@ TEST(Parameters, ErrorsNameFileLineAndRemedy) {
   EXPECT_THAT(errorOf("top = 1\ntop = 2\n"), testing::AllOf(HasSubstr("set.toml:2:"), HasSubstr("not TOML")));
   EXPECT_THAT(errorOf("top = \n"), testing::AllOf(HasSubstr("set.toml:1:"), HasSubstr("not TOML")));
   EXPECT_THAT(errorOf("[[!top]]\n"), testing::AllOf(HasSubstr("set.toml:1:"), HasSubstr("not TOML")));
+  EXPECT_THAT(errorOf("top = 1\n\xC3\xB6 = 2\n"),
+              testing::AllOf(HasSubstr("set.toml:2:"), HasSubstr("beyond ASCII")));
   EXPECT_THAT(errorOf("provenance = 1\n"), HasSubstr("unknown key"));
 }
 

@@ -1,0 +1,34 @@
+#include "nonet/config/toml_letters.h"
+
+#include <gtest/gtest.h>
+
+namespace nonet::config {
+namespace {
+
+TEST(TomlLetters, MayStandInCommentsAndQuotes) {
+  EXPECT_EQ(lineOfForeignLetter(""), 0u);
+  EXPECT_EQ(lineOfForeignLetter("a = 1 # \xC3\xB6\nb = 2\n"), 0u);
+  EXPECT_EQ(lineOfForeignLetter("a = \"\xC3\xB6\" # \xC3\xB6\nb = '\xC3\xB6'"), 0u);
+  EXPECT_EQ(lineOfForeignLetter("a = \"#\\\"\xC3\xB6\"\n"), 0u) << "a quote behind a backslash ends no text";
+  EXPECT_EQ(lineOfForeignLetter("\xEF\xBB\xBF"
+                                "a = 1\n"),
+            0u)
+      << "the mark that some editors begin files with";
+}
+
+TEST(TomlLetters, AreFoundElsewhere) {
+  EXPECT_EQ(lineOfForeignLetter("\xC3\x96"), 1u);
+  EXPECT_EQ(lineOfForeignLetter("a = 1\n\xC3\xB6 = 1\n"), 2u);
+  EXPECT_EQ(lineOfForeignLetter("a = 1\nb = 1 \xC3\xB6\n"), 2u);
+  EXPECT_EQ(lineOfForeignLetter("a = \"#\" \xC3\xB6\n"), 1u) << "in quotes # begins no comment";
+  EXPECT_EQ(lineOfForeignLetter("a = 'b\\' \xC3\xB6\n"), 1u)
+      << "in single quotes a backslash is a letter like others";
+  EXPECT_EQ(lineOfForeignLetter("# \"\n\xC3\xB6\n"), 2u) << "a quote in a comment begins no text";
+  EXPECT_EQ(lineOfForeignLetter("a = \"b\n\xC3\xB6\n"), 2u) << "a text ends with its line";
+  EXPECT_EQ(lineOfForeignLetter("a = \"\"\"\nb # \" c\n\xC3\xB6\"\"\"\n"), 3u)
+      << "but for one in three quotes";
+  EXPECT_EQ(lineOfForeignLetter("a = '''b''' # \xC3\xB6\nb = \"\"\"c\"\"\" \xC3\xB6"), 2u);
+}
+
+}  // namespace
+}  // namespace nonet::config
