@@ -1,25 +1,12 @@
-// Reads parameters from TOML. The only file that includes toml++, which takes long to compile.
-#define TOML_ENABLE_FORMATTERS 0  // reading only
-// toml++ 3.3 takes some malformed texts ("[[!a]]") for a fault of its own. Its assertions are errors of the
-// text here, in every build: with NDEBUG they would be promises to the optimiser.
-namespace nonet::config::detail {
-struct TomlAssertion {};
-[[noreturn]] inline void failToml() {
-  throw TomlAssertion{};
-}
-}  // namespace nonet::config::detail
-#undef NDEBUG
-#define TOML_ASSERT(expr) ((expr) ? void() : nonet::config::detail::failToml())
+// Reads parameters from TOML.
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string>
 
-#include <toml++/toml.h>
-
 #include "nonet/config/parameters.h"
-#include "nonet/config/toml_letters.h"
+#include "nonet/config/toml.h"
 
 #include "fields.h"
 #include "units.h"
@@ -134,19 +121,11 @@ class Reader {
 
 void overlayText(const std::vector<Field>& fields, std::string_view toml, const std::string& nameForErrors) {
   const Reader reader(fields, nameForErrors);
-  if (const std::size_t line = lineOfForeignLetter(toml)) {
-    throw ParameterError(fmt::format(
-        "{}not TOML: a letter beyond ASCII may stand in comments and in quotes only", reader.at(line)));
-  }
   toml::table table;
   try {
-    table = toml::parse(toml);
-  } catch (const toml::parse_error& error) {
-    throw ParameterError(
-        fmt::format("{}not TOML: {}", reader.at(error.source().begin.line), error.description()));
-  } catch (const TomlAssertion&) {
-    throw ParameterError(
-        fmt::format("{}not TOML, somewhere: a table's or key's name cannot be read", reader.at(1)));
+    table = parseToml(toml);
+  } catch (const TomlError& error) {
+    throw ParameterError(fmt::format("{}not TOML: {}", reader.at(error.line()), error.what()));
   }
   reader.read(table, "");
 }

@@ -1,14 +1,11 @@
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include "nonet/config/toml_letters.h"
+#include "nonet/config/toml.h"
 #include "nonet/lab/match/table.h"
 
 namespace nonet::lab {
@@ -110,18 +107,7 @@ void checkSides(const TableSettings& table, const std::string& path) {
 }  // namespace
 
 TableSettings readTable(const std::string& path, const std::string& dataFolder) {
-  std::ifstream stream(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (const std::size_t line = config::lineOfForeignLetter(text)) {
-    throw std::runtime_error(fmt::format(
-        "{}:{}: not TOML: a letter beyond ASCII may stand in comments and in quotes only", path, line));
-  }
-  toml::table file;
-  try {
-    file = toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    throw std::runtime_error(fmt::format("{}:{}: {}", path, error.source().begin.line, error.description()));
-  }
+  const toml::table file = config::parseTomlFile(path);
   TableSettings table;
   SeriesSettings& games = table.games;
   games.place.clear();

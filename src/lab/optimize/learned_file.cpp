@@ -10,10 +10,9 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#define TOML_ENABLE_FORMATTERS 0  // reading only
-#include <toml++/toml.h>
 
 #include "nonet/config/parameters.h"
+#include "nonet/config/toml.h"
 #include "nonet/lab/common/statistics.h"
 #include "nonet/lab/optimize/optimization_settings.h"
 
@@ -139,15 +138,11 @@ Provenance Provenance::fromJson(const json& value) {
 
 std::vector<Provenance> readProvenance(const std::string& path) {
   std::vector<Provenance> origins;
-  try {
-    const toml::table file = toml::parse_file(path);
-    if (const toml::table* tables = file["provenance"].as_table()) {
-      for (const auto& [name, node] : *tables) {
-        if (const toml::table* table = node.as_table()) origins.push_back(provenanceFrom(*table, path));
-      }
+  const toml::table file = config::parseTomlFile(path);
+  if (const toml::table* tables = file["provenance"].as_table()) {
+    for (const auto& [name, node] : *tables) {
+      if (const toml::table* table = node.as_table()) origins.push_back(provenanceFrom(*table, path));
     }
-  } catch (const toml::parse_error& error) {
-    throw std::runtime_error(fmt::format("{}: {}", path, error.description()));
   }
   return origins;
 }

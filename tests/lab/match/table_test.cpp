@@ -98,6 +98,9 @@ TEST(Table, ErrorsNameTheLine) {
   EXPECT_THAT(TableFile(std::string("against='x'\n") + kThree).error(), HasSubstr("no side is called 'x'"));
   EXPECT_THAT(TableFile(std::string("sprt2=[1]\n") + kThree).error(), HasSubstr("sprt2"));
   EXPECT_THAT(TableFile("pairs = \n").error(), HasSubstr(".toml:1"));
+  EXPECT_THAT(TableFile("[[!a]]\n").error(), HasSubstr(".toml:1: not TOML: somewhere"));
+  EXPECT_THAT(TableFile("pairs = 7\n\xC3\xB6 = 1\n").error(), HasSubstr(".toml:2: not TOML: a letter"));
+  EXPECT_THAT(TableFile("title = '\xC3\xB6'\npears = 1\n").error(), HasSubstr("'pears'"));
 }
 
 TEST(Table, ShowsDifferencesFromTheSideOfTheRow) {
