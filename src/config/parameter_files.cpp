@@ -1,8 +1,5 @@
 // Reads parameters from TOML.
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "nonet/config/parameters.h"
@@ -131,16 +128,11 @@ void overlayText(const std::vector<Field>& fields, std::string_view toml, const 
 }
 
 void overlayFile(const std::vector<Field>& fields, const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
   std::string text;
-  std::array<char, 4096> buffer{};
-  while (file.read(buffer.data(), buffer.size()) || file.gcount() > 0) {
-    text.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (!file.is_open() || file.bad()) {
-    throw ParameterError(fmt::format("{}: cannot be read ({}): give the path of a parameter file", path,
-                                     errno != 0 ? std::strerror(errno) : "not a file"));
+  try {
+    text = readText(path, "parameter file");
+  } catch (const std::runtime_error& error) {
+    throw ParameterError(error.what());
   }
   overlayText(fields, text, path);
 }

@@ -1,7 +1,9 @@
 #include "nonet/config/toml.h"
 
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -21,11 +23,23 @@ toml::table parseToml(std::string_view text) {
   }
 }
 
-toml::table parseTomlFile(const std::string& path) {
+std::string readText(const std::string& path, std::string_view kind) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file.is_open() || file.bad())
-    throw std::runtime_error(fmt::format("{}: cannot be read: give the path of a TOML file", path));
+  std::string text;
+  std::array<char, 4096> buffer{};
+  while (file.read(buffer.data(), buffer.size()) || file.gcount() > 0) {
+    text.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.is_open() || file.bad()) {
+    throw std::runtime_error(fmt::format("{}: cannot be read ({}): give the path of a {}", path,
+                                         errno != 0 ? std::strerror(errno) : "not a file", kind));
+  }
+  return text;
+}
+
+toml::table parseTomlFile(const std::string& path) {
+  const std::string text = readText(path, "TOML file");
   try {
     return parseToml(text);
   } catch (const TomlError& error) {

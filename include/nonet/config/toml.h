@@ -38,7 +38,10 @@ class TomlError : public std::runtime_error {
 /// Throws TomlError. Letters beyond ASCII may stand in comments and in texts in quotes only.
 toml::table parseToml(std::string_view text);
 
-/// The same of a whole file; throws std::runtime_error, whose message begins with PATH: or PATH:LINE:.
+/// A whole file; throws std::runtime_error that says why it cannot be read, and what `kind` of file to give.
+std::string readText(const std::string& path, std::string_view kind);
+
+/// parseToml() of a whole file; throws std::runtime_error, whose message begins with PATH: or PATH:LINE:.
 toml::table parseTomlFile(const std::string& path);
 
 }  // namespace nonet::config
