@@ -15,4 +15,18 @@ void addAgentOptions(CLI::App& command, agent::AgentChoice& choice, std::string&
   command.add_option("--data", data, "Folder with params/ and skills/")->check(CLI::ExistingDirectory);
 }
 
+std::optional<lab::ServerAddress> ServerChoice::chosen() const {
+  return overTcp ? std::optional(address) : std::nullopt;
+}
+
+void addServerOptions(CLI::App& command, ServerChoice& server) {
+  CLI::Option* tcp =
+      command.add_flag("--tcp", server.overTcp, "Measure on a running, empty server instead of in process");
+  command.add_option("--host", server.address.host, "Its host")->capture_default_str()->needs(tcp);
+  command.add_option("--port", server.address.port, "Its agent port")->capture_default_str()->needs(tcp);
+  command.add_option("--monitor-port", server.address.monitorPort, "Its monitor port")
+      ->capture_default_str()
+      ->needs(tcp);
+}
+
 }  // namespace nonet::app

@@ -21,6 +21,7 @@ struct KickReportArguments {
   agent::AgentChoice choice;
   lab::KickReportSettings settings;
   std::string data;
+  ServerChoice server;
   std::string svg;
   bool json = false;
 };
@@ -30,6 +31,7 @@ int run(const KickReportArguments& arguments) {
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
+  settings.server = arguments.server.chosen();
   Console console(stderr);
   settings.progress = console.trials();
   const std::vector<lab::KickStatistics> report = lab::measureKicks(settings);
@@ -66,13 +68,15 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--stop", settings.stops, "It should come to rest there: motion chooses as for a pass");
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
   command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
+  addServerOptions(*command, arguments->server);
   command->add_option("--svg", arguments->svg, "Draw the balls' ways: SVG + name of the kick + .svg");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(
       "Examples:\n  nonet kick-report --type 4\n  nonet kick-report --kick kick_power --json\n"
       "  nonet kick-report --kick any --rolling 0.3 --start 1.5 --svg fan_\n"
       "  nonet kick-report --kick any --distance 4 --stop  # a pass of 4 m\n"
-      "  nonet kick-report --kick any --pushed 1 --start 0.5  # after the dribbler's own push");
+      "  nonet kick-report --kick any --pushed 1 --start 0.5  # after the dribbler's own push\n"
+      "  nonet kick-report --kick kick_power --tcp         # on a server that runs, nobody else on it");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }
 

@@ -22,8 +22,7 @@ struct WalkReportArguments {
   agent::AgentChoice choice;
   std::string data;
   lab::WalkReportSettings settings;
-  lab::ServerAddress server;
-  bool overTcp = false;
+  ServerChoice server;
   bool json = false;
   bool initial = false;
   std::string svgFile;
@@ -38,12 +37,12 @@ void writeFile(const std::string& file, const std::string& text) {
 
 int run(WalkReportArguments arguments) {
   arguments.choice.learned = !arguments.initial;
-  if (arguments.overTcp && arguments.settings.courses > 0)
+  if (arguments.server.overTcp && arguments.settings.courses > 0)
     throw std::runtime_error("courses are walked in process only: leave out --tcp or --courses");
   lab::WalkReportSettings& settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   settings.setup = lab::trialSettings(agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data)));
-  if (arguments.overTcp) settings.server = arguments.server;
+  settings.server = arguments.server.chosen();
   if (!arguments.traceFile.empty()) {
     writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));
   }
@@ -74,10 +73,7 @@ void addWalkReportCommand(CLI::App& app, int& exitCode) {
                     "Start from the code's own values, not params/type*.toml");
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
-  command->add_flag("--tcp", arguments->overTcp, "Measure on a running, empty server instead of in process");
-  command->add_option("--host", arguments->server.host, "Its host");
-  command->add_option("--port", arguments->server.port, "Its agent port");
-  command->add_option("--monitor-port", arguments->server.monitorPort, "Its monitor port");
+  addServerOptions(*command, arguments->server);
   command->add_flag("--json", arguments->json, "Print JSON");
   command->add_option("--svg", arguments->svgFile, "Write a polar plot of the speeds");
   command->add_option("--trace", arguments->traceFile, "Write a plot of one second of fast walking forward");

@@ -106,7 +106,8 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
   for (const std::string& name : names) {
     const motion::KickHead head = name == "any" ? motion::KickHead{} : kickHead(settings.agent, name);
     std::vector<Kick> kicks(static_cast<std::size_t>(settings.trials));
-    inParallel(settings.trials, settings.threads, settings.progress, name, [&](int i) {
+    const int threads = settings.server ? 1 : settings.threads;
+    inParallel(settings.trials, threads, settings.progress, name, [&](int i) {
       KickScene scene;
       scene.kick = name == "any" ? "" : name;
       scene.start = settings.start;
@@ -115,8 +116,10 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
       scene.distance = settings.distance;
       scene.stops = settings.stops || head.scales;
       scene.bearing = kickBearing(i);
-      kicks[static_cast<std::size_t>(i)] =
-          kickOnce(settings.agent, sim::Settings{}, scene, seeds.fork(static_cast<std::uint64_t>(i)).next());
+      const std::uint64_t seed = seeds.fork(static_cast<std::uint64_t>(i)).next();
+      kicks[static_cast<std::size_t>(i)] = settings.server
+                                               ? kickOnServer(settings.agent, *settings.server, scene, seed)
+                                               : kickOnce(settings.agent, sim::Settings{}, scene, seed);
     });
     report.push_back(statisticsOf(name, head, std::move(kicks), settings.distance));
   }

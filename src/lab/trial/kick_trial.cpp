@@ -6,14 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "nonet/lab/trial/game_trial.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/world/ball_law.h"
 
 #include "lab/trial/ball_flight.h"
-#include "lab/trial/kicker.h"
+#include "lab/trial/kick_stage.h"
 
 namespace nonet::lab {
 
@@ -25,30 +24,43 @@ constexpr double kLasts = 2.0;     // s after contact that the robot must stand
 constexpr double kRollsOut = 8.0;  // s, for a ball that flies and bounces
 constexpr int kBearings = 10;
 
-world::BallMotion motionOf(const GameTrial& trial) {
-  return {trial.ball(), trial.ballVelocity()};
-}
-
 // From the contact on: what the ball does, and whether the robot stays on its feet.
-void follow(GameTrial& trial, const Vector2& from, const Pose2& X_WAim, Kick& kick) {
-  const double contact = trial.time();
+void follow(KickStage& stage, const Vector2& from, const Pose2& X_WAim, Kick& kick) {
+  const double contact = stage.time();
   BallFlight flight(from);
   const double least = contact + kLasts;
-  while (trial.time() < contact + kRollsOut) {
-    trial.step();
-    const Vector3 ball = trial.ball();
-    kick.ballSpeed = std::max(kick.ballSpeed, trial.ballVelocity().norm());
-    flight.note(motionOf(trial));
-    const Vector2 aimed = X_WAim.inverse() * Vector2(ball.head<2>());
-    kick.path.emplace_back(aimed.x(), aimed.y(), ball.z());
-    if (trial.time() < least) kick.fell = kick.fell || trial.down(0);
-    if (trial.time() > least && !world::isFlying(motionOf(trial))) break;
+  while (stage.time() < contact + kRollsOut) {
+    stage.step();
+    const world::BallMotion ball = stage.ball();
+    kick.ballSpeed = std::max(kick.ballSpeed, ball.v_FB.norm());
+    flight.note(ball);
+    const Vector2 aimed = X_WAim.inverse() * Vector2(ball.p_FB.head<2>());
+    kick.path.emplace_back(aimed.x(), aimed.y(), ball.p_FB.z());
+    if (stage.time() < least) kick.fell = kick.fell || stage.down();
+    if (stage.time() > least && !world::isFlying(ball)) break;
   }
   flight.tell(kick);
   // The rest of a roll is certain.
-  const Vector2 way = X_WAim.inverse() * world::restPlace(motionOf(trial));
+  const Vector2 way = X_WAim.inverse() * world::restPlace(stage.ball());
   kick.forward = way.x();
   kick.aside = way.y();
+}
+
+Kick kickOn(KickStage& stage, const KickGame& game, double longest) {
+  Kick kick;
+  double speed = game.situation.ballVelocity.norm();
+  Vector2 from = game.situation.ball;
+  while (stage.time() < longest && !kick.contact) {
+    from = stage.ball().p_FB.head<2>();
+    stage.step();
+    const double now = stage.ball().v_FB.norm();
+    kick.contact = game.kicker->motion.busy && now > speed + kHit;
+    speed = now;
+    kick.fell = kick.fell || stage.down();
+  }
+  kick.time = stage.time();
+  if (kick.contact) follow(stage, from, Pose2(from, directionOf(game.p_FTarget - from)), kick);
+  return kick;
 }
 
 }  // namespace
@@ -87,22 +99,14 @@ Kick kickOnce(const agent::AgentSettings& agent, const sim::Settings& settings, 
               std::uint64_t seed) {
   Random random(seed);
   const KickGame game = kickGame(agent, scene, random);
-  GameTrial trial(settings, game.situation, random.next());
-  Kick kick;
-  double speed = game.situation.ballVelocity.norm();
-  Vector2 from = game.situation.ball;
-  while (trial.time() < scene.longest && !kick.contact) {
-    from = trial.ball().head<2>();
-    trial.step();
-    const double now = trial.ballVelocity().norm();
-    kick.contact = game.kicker->motion.busy && now > speed + kHit;
-    speed = now;
-    kick.fell = kick.fell || trial.down(0);
-  }
-  kick.time = trial.time();
-  if (!kick.contact) return kick;
-  follow(trial, from, Pose2(from, directionOf(game.p_FTarget - from)), kick);
-  return kick;
+  return kickOn(*makeKickStage(settings, game, random.next()), game, scene.longest);
+}
+
+Kick kickOnServer(const agent::AgentSettings& agent, const ServerAddress& address, const KickScene& scene,
+                  std::uint64_t seed) {
+  Random random(seed);
+  const KickGame game = kickGame(agent, scene, random);
+  return kickOn(*connectKickStage(game, address, random.next()), game, scene.longest);
 }
 
 }  // namespace nonet::lab

@@ -24,6 +24,7 @@ struct KickReportSettings {
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all processors; the result does not depend on it
   TrialProgress progress{};
+  std::optional<ServerAddress> server{};  // kicks there, one after the other, instead of in process
 };
 
 /// A figure over many kicks.

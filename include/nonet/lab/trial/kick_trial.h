@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nonet/agent/agent.h"
+#include "nonet/lab/trial/server_address.h"
 #include "nonet/motion/skill.h"
 #include "nonet/sim/settings/settings.h"
 
@@ -43,6 +44,12 @@ struct Kick {
 /// The same arguments always give the same kick.
 Kick kickOnce(const agent::AgentSettings& agent, const sim::Settings& settings, const KickScene& scene,
               std::uint64_t seed);
+
+/// The same on a server that is otherwise empty, in lock-step or by the clock: the robot enters, is put at
+/// its place, and leaves. The truth comes from the monitor stream; the server's own noise makes each kick
+/// another. Throws std::runtime_error that names the address when it cannot be reached or refuses.
+Kick kickOnServer(const agent::AgentSettings& agent, const ServerAddress& address, const KickScene& scene,
+                  std::uint64_t seed);
 
 /// Head of the kick of that name, for the left foot. Throws std::runtime_error if this robot has no such
 /// kick, naming those that it has.

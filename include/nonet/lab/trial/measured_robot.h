@@ -3,9 +3,9 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "nonet/lab/trial/robot_trial.h"
+#include "nonet/lab/trial/server_address.h"
 
 namespace nonet::lab {
 
@@ -26,12 +26,6 @@ class MeasuredRobot {
 
 /// On the in-process physics.
 std::unique_ptr<MeasuredRobot> makeMeasuredRobot(const TrialSettings& setup);
-
-struct ServerAddress {
-  std::string host = "127.0.0.1";
-  int port = 3100;
-  int monitorPort = 3200;
-};
 
 /// On any server, embedded or real, in lock-step or real time; the true pose comes from its monitor stream.
 /// The server must be otherwise empty. Throws std::runtime_error that names the address when it cannot be
