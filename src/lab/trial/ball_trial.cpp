@@ -39,7 +39,8 @@ KickWatch watchOf(const motion::MotionState& motion) {
   KickWatch watch;
   watch.ready = !motion.kick.name.empty() && (motion.kick.inPlace || motion.busy);
   for (const motion::KickOption& option : motion.kicks) {
-    if (option.name == motion.kick.name) watch.direction = option.head.direction;
+    if (option.name == motion.kick.name && option.foot == motion.kick.foot)
+      watch.direction = option.head.direction;
   }
   return watch;
 }
