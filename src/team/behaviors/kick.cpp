@@ -77,13 +77,6 @@ bool mayKick(const Situation& s, const BallPlay& play, bool there) {
   return laneWidth(s.world, from, end, std::numeric_limits<double>::infinity()) > p.kickLane;
 }
 
-// Near enough, and behind the ball, for motion to take the last steps.
-bool isBehind(const Situation& s, const BallPlay& play) {
-  const BallHandlingParameters& p = s.parameters.ball;
-  return play.behind > p.kickBehind && std::abs(play.direction) < p.kickApproach &&
-         std::abs(play.besides) < play.behind + p.kickBesides;
-}
-
 bool goesAside(const Situation& s, std::string_view kick) {
   return std::any_of(s.motion.kicks.begin(), s.motion.kicks.end(), [&](const motion::KickOption& option) {
     return option.name == kick && !option.head.isStraight();
