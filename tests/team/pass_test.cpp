@@ -55,24 +55,6 @@ TEST(Pass, GoesToAFreeMateAhead) {
   EXPECT_GT(action.pass->thereAt, action.pass->kickAt);
 }
 
-// Motion takes the last steps only: from in front of the ball it would walk into it.
-TEST(Pass, GoesBehindTheBallFirst) {
-  Passing scene;
-  scene.stand(Pose2(1.4, 0.5, kPi));
-  Scene::put(scene.world.opponents[3], Pose2(3.6, -0.3, kPi));
-  const Action action = scene.decideAs(Role::OnBall);
-  EXPECT_EQ(action.reason.behavior, "pass");
-  ASSERT_TRUE(std::holds_alternative<motion::WalkTo>(action.motion));
-  ASSERT_TRUE(action.pass) << "the receiver may set off";
-  EXPECT_EQ(action.pass->receiver, kReceiver);
-  // The way around keeps off the ball.
-  const Vector2 from = scene.world.self.X_FR.translation;
-  const Vector2 to = goalOf(scene, action);
-  const Vector2 ball = scene.world.ball.p_FB.head<2>();
-  const double along = std::clamp((ball - from).dot(to - from) / (to - from).squaredNorm(), 0.0, 1.0);
-  EXPECT_GT((from + along * (to - from) - ball).norm(), 0.2);
-}
-
 TEST(Pass, NotThroughAnOpponent) {
   Passing scene;
   const Vector2 middle = 0.5 * (scene.mate() + Vector2(1.0, 0.0));

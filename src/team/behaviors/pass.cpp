@@ -2,9 +2,7 @@
 
 #include "nonet/team/behaviors.h"
 
-#include "team/behaviors/go_behind.h"
 #include "team/behaviors/kick_action.h"
-#include "team/behaviors/play_aside.h"
 
 namespace nonet::team {
 
@@ -31,10 +29,8 @@ std::optional<Action> pass(const Situation& s) {
   if (!best) return std::nullopt;
   BallPlay play = playTowards(s, best->p_FTarget, s.play->use);
   play.kick = best->kick;
-  const BallPlay faced = playAside(s, play, true).value_or(play);
-  const bool ready = inPlace(s) || isBehind(s, faced);
-  Action action = ready ? kickAction(s, play, inPlace(s) ? "in place" : "line up") : goBehind(s, faced);
-  if (auto* request = std::get_if<motion::KickTo>(&action.motion)) request->stops = true;
+  Action action = kickAction(s, play, inPlace(s) ? "in place" : "line up");
+  std::get<motion::KickTo>(action.motion).stops = true;
   action.pass = PassAnnouncement{best->receiver, best->p_FTarget, s.world.time + best->untilKick,
                                  s.world.time + best->untilThere};
   return action;
