@@ -81,8 +81,7 @@ TEST_F(Installed, ItsLibraryServesLearners) {
 TEST_F(Installed, ItsScriptsStartAndStopAgents) {
   Program server({"serve", "--port", "0", "--monitor-port", "0"}, folder.file("server.txt"));
   ASSERT_TRUE(server.says("agents on port "));
-  const std::string text = server.output();
-  const std::string port = std::to_string(std::stoi(text.substr(text.find("agents on port ") + 15)));
+  const std::string port = std::to_string(server.numberAfter("agents on port "));
   const std::string scripts = "'" + prefix + "/share/nonet/scripts/";
   const auto [started, output] = asNobody(scripts + "start.sh' 127.0.0.1 " + port + " -t Ours -n 2");
   EXPECT_EQ(started, 0) << output;

@@ -55,6 +55,11 @@ class Program {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   std::string output() const { return textOf(output_); }
+  /// The first number that stands behind these words in its output, a port say.
+  int numberAfter(const std::string& words) const {
+    const std::string text = output();
+    return std::stoi(text.substr(text.find(words) + words.size()));
+  }
   /// Waits until a line of its output matches.
   bool says(const std::string& pattern, double seconds = 20.0) const {
     return fileSays(output_, pattern, seconds);

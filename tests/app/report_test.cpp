@@ -15,8 +15,8 @@ class ReportCommand : public testing::Test {
   // The embedded server in lock-step, on any free ports.
   void serve() {
     ASSERT_TRUE(server_.says("monitors on port \\d+")) << server_.output();
-    port_ = portAfter("agents on port ");
-    monitorPort_ = portAfter("monitors on port ");
+    port_ = std::to_string(server_.numberAfter("agents on port "));
+    monitorPort_ = std::to_string(server_.numberAfter("monitors on port "));
   }
   std::vector<std::string> there() const {
     return {"--tcp", "--port", port_, "--monitor-port", monitorPort_};
@@ -29,16 +29,11 @@ class ReportCommand : public testing::Test {
     Program program(arguments, file);
     EXPECT_EQ(program.wait(), 0) << program.output();
     const std::string text = program.output();  // progress and JSON
-    return nlohmann::json::parse(text.substr(std::min(text.find("\n{"), text.find('{'))), nullptr, false);
+    return nlohmann::json::parse(text.substr(text.find('{')), nullptr, false);
   }
   TestFolder folder_{"nonet_report_test"};
 
  private:
-  std::string portAfter(const std::string& words) const {
-    const std::string text = server_.output();
-    return std::to_string(std::stoi(text.substr(text.find(words) + words.size())));
-  }
-
   Program server_{{"serve", "--sync", "--port", "0", "--monitor-port", "0"}, folder_.file("server.txt")};
   std::string port_;
   std::string monitorPort_;

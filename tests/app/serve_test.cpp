@@ -97,8 +97,7 @@ class ServeCommand : public testing::Test {
     }
     server = std::make_unique<Program>(arguments, folder.file("server.txt"));
     ASSERT_TRUE(server->says("monitors on port")) << server->output();
-    const std::string text = server->output();
-    port = std::stoi(text.substr(text.find("agents on port ") + 15));
+    port = server->numberAfter("agents on port ");
   }
   std::unique_ptr<Program> play(const std::string& team, int unum, int atPort) {
     const std::string name = team + std::to_string(unum);
@@ -206,8 +205,7 @@ TEST_F(ServeCommand, ListensForThisMachineOnlyAndSaysSo) {
 
   Program open({"serve", "--port", "0", "--monitor-port", "0", "--bind", "0.0.0.0"}, folder.file("open.txt"));
   ASSERT_TRUE(open.says("is obeyed as a trainer")) << open.output();
-  const std::string text = open.output();
-  const int openPort = std::stoi(text.substr(text.find("agents on port ") + 15));
+  const int openPort = open.numberAfter("agents on port ");
   EXPECT_TRUE(Caller("127.0.0.1", "127.0.0.2", openPort).connected());
 }
 
@@ -216,9 +214,8 @@ TEST_F(ServeCommand, BoundsConnectionsPerAddressAndInAll) {
       {"serve", "--port", "0", "--monitor-port", "0", "--most-connections", "5", "--most-per-address", "3"},
       folder.file("bounded.txt"));
   ASSERT_TRUE(bounded.says("monitors on port")) << bounded.output();
-  const std::string text = bounded.output();
-  const int agents = std::stoi(text.substr(text.find("agents on port ") + 15));
-  const int monitors = std::stoi(text.substr(text.find("monitors on port ") + 17));
+  const int agents = bounded.numberAfter("agents on port ");
+  const int monitors = bounded.numberAfter("monitors on port ");
   for (const int at : {agents, monitors}) {
     std::vector<std::unique_ptr<Caller>> callers;
     const auto call = [&](const char* from) -> Caller& {

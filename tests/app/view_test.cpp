@@ -258,10 +258,6 @@ TEST(ViewPage, LoadsSeeksAndShowsFieldRobotsAndBall) {
   EXPECT_NE(two, ballSeenBy5("3")) << "the ball has rolled";
 }
 
-int portIn(const std::string& text, const std::string& before) {
-  return std::stoi(text.substr(text.find(before) + before.size()));
-}
-
 double gameTimeIn(const std::string& page) {
   const std::string before = "data-time=\"";
   const std::size_t at = page.find(before);
@@ -279,9 +275,9 @@ TEST(ViewPage, FollowsAServerThatRuns) {
                         "AutomaticKickOff=true", "--set", "WaitBeforeKickOff=0.5"},
                        folder.file("server.txt"));
   ASSERT_TRUE(server.says("monitors on port [0-9]+")) << server.output();
-  const RunningView view(folder, "localhost:" + std::to_string(portIn(server.output(), "monitors on port ")));
+  const RunningView view(folder, "localhost:" + std::to_string(server.numberAfter("monitors on port ")));
   ASSERT_TRUE(view.says("live from localhost"));
-  const Program agent({"play", "--port", std::to_string(portIn(server.output(), "agents on port ")), "--team",
+  const Program agent({"play", "--port", std::to_string(server.numberAfter("agents on port ")), "--team",
                        "Reds", "--unum", "5", "--type", "3"},
                       folder.file("agent.txt"));
   ASSERT_TRUE(server.says("Reds")) << server.output();

@@ -9,6 +9,7 @@
 #include <asio.hpp>
 #include <fmt/format.h>
 
+#include "nonet/lab/trial/true_pose.h"
 #include "nonet/math/angle.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/monitor_reader.h"
@@ -118,7 +119,9 @@ struct ServerBody::Implementation {
       listen();
       if (!percept.game.unum) answer({});
     }
-    if (!percept.game.unum) throw std::runtime_error("the server refused the robot: is it empty?");
+    if (!percept.game.unum)
+      throw std::runtime_error(
+          fmt::format("{}:{}: the server refused the robot: is it empty?", address.host, address.port));
   }
 
   void answer(const protocol::Effectors& effectors) {
@@ -186,7 +189,7 @@ Pose2 ServerBody::pose() const {
   return {torso.translation().x(), torso.translation().y(), std::atan2(forward.y(), forward.x())};
 }
 bool ServerBody::down() const {
-  return implementation_->truth.torso().translation().z() < 0.55 * robot().model().standingHeight();
+  return isDown(implementation_->truth.torso().translation().z(), robot().model());
 }
 const world::BallMotion& ServerBody::ball() const {
   return implementation_->truth.ball();

@@ -25,8 +25,11 @@ double trueTilt(const sim::World& world, sim::RobotHandle robot) {
 }
 
 bool isDown(const sim::World& world, sim::RobotHandle robot) {
-  const double standing = model::robotModel(world.robotType(robot)).standingHeight();
-  return torsoOf(world, robot).position.cast<double>().z() < 0.55 * standing;
+  return isDown(torsoOf(world, robot).position.cast<double>().z(), model::robotModel(world.robotType(robot)));
+}
+
+bool isDown(double torsoHeight, const model::RobotModel& model) {
+  return torsoHeight < 0.55 * model.standingHeight();
 }
 
 }  // namespace nonet::lab
