@@ -117,28 +117,60 @@ TEST_F(WalkControlTest, SprintsStraightAheadOnly) {
   EXPECT_EQ(setOf(Pose2(3.0, 0.0, 0.0)), WalkSet::Positioning) << "others come first";
 }
 
+class Sprinter : public WalkControlTest {
+ protected:
+  Sprinter() {
+    for (int i = 0; i < 100; ++i) sprintTo(walk);
+    EXPECT_EQ(sprinter.set(), WalkSet::Sprint);
+    EXPECT_GT(step(), 0.12);
+  }
+  static WalkSelection sprinting() {
+    WalkSelection chosen = selection();
+    chosen.useSprint = true;
+    return chosen;
+  }
+  static WalkSets longSteps() {
+    WalkSets sets;
+    sets.sprint.gait.maxStepX = 0.15;
+    sets.sprint.balance.comErrorNormal = 1.0;  // no body moves in this test
+    sets.sprint.balance.comErrorMost = 2.0;
+    return sets;
+  }
+  void sprintTo(const MotionRequest& request) { sprinter.update(world, request, targets); }
+  double step() const { return sprinter.engine().gait().step.translation.x(); }
+
+  WalkControl sprinter{model::robotModel(0), longSteps(), sprinting()};
+};
+
 // From full steps the set changes only once they have become short, and the robot slows down until then.
-TEST_F(WalkControlTest, RunsOutBeforeTheSetChanges) {
-  WalkSelection chosen = selection();
-  chosen.useSprint = true;
-  WalkSets sets;
-  sets.sprint.gait.maxStepX = 0.15;
-  sets.sprint.balance.comErrorNormal = 1.0;  // no body moves in this test
-  sets.sprint.balance.comErrorMost = 2.0;
-  WalkControl sprinter(model::robotModel(0), sets, chosen);
-  for (int i = 0; i < 100; ++i) sprinter.update(world, walk, targets);
-  ASSERT_EQ(sprinter.set(), WalkSet::Sprint);
-  double step = sprinter.engine().gait().step.translation.x();
-  ASSERT_GT(step, 0.12);
+TEST_F(Sprinter, RunsOutBeforeTheSetChanges) {
+  double last = step();
   int cycles = 0;
   for (; sprinter.set() == WalkSet::Sprint && cycles < 50; ++cycles) {
-    EXPECT_LE(sprinter.engine().gait().step.translation.x(), step);
-    step = sprinter.engine().gait().step.translation.x();
-    sprinter.update(world, MotionRequest{}, targets);
+    EXPECT_LE(step(), last);
+    last = step();
+    sprintTo(MotionRequest{});
   }
   EXPECT_EQ(sprinter.set(), WalkSet::Positioning);
   EXPECT_GT(cycles, 5);
-  EXPECT_LT(step, 0.1);
+  EXPECT_LT(last, 0.1);
+}
+
+TEST_F(Sprinter, RunsOutToTheEndThoughTheTargetIsAheadAgain) {
+  WalkTo turned = walk;
+  turned.target = Pose2(3.0, 1.5, 0.0);
+  for (int i = 0; i < 10; ++i) sprintTo(turned);
+  double last = step();
+  ASSERT_GT(last, longSteps().sprint.gait.stopStep);
+  while (last > longSteps().sprint.gait.stopStep) {
+    sprintTo(walk);
+    ASSERT_LT(step(), last);
+    EXPECT_EQ(sprinter.set(), WalkSet::Sprint);
+    last = step();
+  }
+  for (int i = 0; i < 10; ++i) sprintTo(walk);
+  EXPECT_GT(step(), last) << "then it runs again";
+  EXPECT_EQ(sprinter.set(), WalkSet::Sprint);
 }
 
 class Sidestepper : public WalkControlTest {
