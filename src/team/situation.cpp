@@ -92,6 +92,14 @@ Pose2 BallPlay::placeBehind(double distance) const {
   return {p_FMeeting - distance * way.normalized(), directionOf(way)};
 }
 
+void BallPlay::face(double heading) {
+  direction = heading;
+  along = unitVector(heading);
+  aside = Vector2(-along.y(), along.x());
+  behind = ball.dot(along);
+  besides = ball.dot(aside);
+}
+
 BallPlay playTowards(const Situation& s, const Vector2& p_FTarget, KickUse use, bool wait) {
   BallPlay play;
   play.p_FTarget = p_FTarget;
@@ -101,12 +109,7 @@ BallPlay playTowards(const Situation& s, const Vector2& p_FTarget, KickUse use, 
   play.p_FMeeting = s.forecast.at(timeToBall({X_FR, true, false}, s.forecast, p_FTarget, s.parameters.pace));
   play.ball = s.world.ball.p_RB;
   play.target = X_FR.inverse() * p_FTarget;
-  const Vector2 way = play.target - play.ball;
-  play.direction = directionOf(way);
-  play.along = unitVector(play.direction);
-  play.aside = Vector2(-play.along.y(), play.along.x());
-  play.behind = play.ball.dot(play.along);
-  play.besides = play.ball.dot(play.aside);
+  play.face(directionOf(play.target - play.ball));
   return play;
 }
 

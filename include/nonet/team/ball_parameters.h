@@ -218,6 +218,8 @@ struct BallHandlingParameters {
   bool kick = true;
   double kickApproach = 1.2;
   double kickOpponentDistance = 1.8;
+  double kickRoom = 0.4;
+  double kickRoomPace = 0.7;
   double kickLane = 0.3;
   double handleDistance = 0.9;
   double waitBehind = 0.35;
@@ -232,6 +234,8 @@ struct BallHandlingParameters {
   double awaitAside = 0.3;
   double kickLead = 0.0;
   double wayRoom = 0.5;
+  double sideKeep = 0.3;
+  double sideLoss = 0.2;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -325,8 +329,16 @@ struct BallHandlingParameters {
            Unit::Metre,
            {0, 10},
            search(0.3, 2.5),
-           "Kick only when no opponent is nearer to the ball; a share of it (kickPress) once in place"},
+           "Kick when no opponent is nearer to the ball; a share of it (kickPress) once in place"},
           self.kickOpponentDistance);
+    visit({"kickRoom", Unit::Metre, {0, 10}, search(0.1, 1), "or none is nearer to it than this"},
+          self.kickRoom);
+    visit({"kickRoomPace",
+           Unit::MetrePerSecond,
+           {0, 10},
+           search(0.3, 1.2),
+           "and so much more for each second until the foot can meet the ball"},
+          self.kickRoomPace);
     visit({"kickLane",
            Unit::Metre,
            {0, 2},
@@ -388,6 +400,18 @@ struct BallHandlingParameters {
         self.waitRoom);
     visit({"wayRoom", Unit::Metre, {0, 2}, search(0.4, 1), "Room left to others on the way to the ball"},
           self.wayRoom);
+    visit({"sideKeep",
+           Unit::Second,
+           {0, 5},
+           fixed,
+           "A kick to the side that motion lines up for is kept unless another one is better by this"},
+          self.sideKeep);
+    visit({"sideLoss",
+           Unit::None,
+           {0, 10},
+           search(0.05, 0.5),
+           "What each metre less of a kick to the side is worth, s"},
+          self.sideLoss);
   }
 };
 

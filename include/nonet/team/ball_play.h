@@ -39,7 +39,7 @@ struct BallPlay {
   // Robot frame, m.
   Vector2 ball = Vector2::Zero();
   Vector2 target = Vector2::Zero();
-  double direction = 0.0;  // in which the ball should go, rad
+  double direction = 0.0;  // that the robot should face, rad: the ball's way, unless the kick goes aside
   Vector2 along = Vector2::UnitX();
   Vector2 aside = Vector2::UnitY();  // to the left of `along`
   double behind = 0.0;               // how far the robot is behind the ball
@@ -47,6 +47,9 @@ struct BallPlay {
 
   /// A place behind the ball as it will lie when one comes there, facing the target; own field frame.
   Pose2 placeBehind(double distance) const;
+
+  /// `direction` and what follows from it.
+  void face(double heading);
 };
 
 /// Where a dribbled ball should go from its present place: to the goal, around an opponent that stands in

@@ -25,7 +25,7 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kStarts = 320;         // that are stored: fewer are learned by heart
+constexpr int kStarts = 1280;        // that are stored: 320 are learned by heart
 constexpr int kSwings = 8;           // a trial
 constexpr double kPenalty = -1.0;    // m
 constexpr double kNoContact = -3.0;  // m

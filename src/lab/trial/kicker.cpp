@@ -23,24 +23,6 @@ Kicker::Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget,
   kick_.assign(kick);
 }
 
-// Where the robot must face for the ball to go to its target: elsewhere when the kick goes to the side, with
-// the foot that takes the smaller turn.
-Vector2 Kicker::facedTarget(const team::Situation& situation) const {
-  const Vector2 ball = situation.ball();
-  const Vector2 way = p_FTarget_ - ball;
-  Vector2 faced = p_FTarget_;
-  double least = std::numeric_limits<double>::infinity();
-  for (const motion::KickOption& option : situation.motion.kicks) {
-    if (option.name != kick_.view() || option.head.isStraight()) continue;
-    const Vector2 ahead = Pose2(Vector2::Zero(), -option.head.direction).rotate(way);
-    const double turn = std::abs(angleDifference(directionOf(ahead), situation.world.self.X_FR.rotation));
-    if (turn >= least) continue;
-    least = turn;
-    faced = ball + ahead;
-  }
-  return faced;
-}
-
 bool Kicker::liesBehind() const {
   return std::any_of(motion.kicks.begin(), motion.kicks.end(), [&](const motion::KickOption& option) {
     return option.name == kick_.view() && option.head.isBackward();
@@ -66,15 +48,12 @@ team::Action Kicker::operator()(const world::WorldState& world, const motion::Mo
   if (!world.ball.known || !world.self.localized || state.busy || state.rising) return {};
   if (liesBehind() && world.ball.p_RB.norm() < kNearBall) return turnRound(world);
   team::Situation situation = team::assess(world, parameters_, state);
-  situation.play = team::playTowards(situation, facedTarget(situation), team::KickUse::Clear);
+  situation.play = team::playTowards(situation, p_FTarget_, team::KickUse::Clear);
+  situation.play->kick = kick_.view();
   for (const auto& behavior : {team::goToBall, team::kick, team::goBehindBall}) {
     std::optional<team::Action> action = behavior(situation);
     if (!action) continue;
-    if (auto* request = std::get_if<motion::KickTo>(&action->motion)) {
-      request->kick = kick_;
-      request->stops = stops_;
-      request->target = world.self.X_FR.inverse() * p_FTarget_;
-    }
+    if (auto* request = std::get_if<motion::KickTo>(&action->motion)) request->stops = stops_;
     action->head = team::lookAtBall(world);
     return *action;
   }

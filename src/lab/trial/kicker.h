@@ -26,7 +26,6 @@ class Kicker {
   motion::MotionState motion;  // what motion did in the last cycle
 
  private:
-  Vector2 facedTarget(const team::Situation& situation) const;
   bool liesBehind() const;
   team::Action turnRound(const world::WorldState& world) const;
 

@@ -6,6 +6,7 @@
 #include "nonet/team/behaviors.h"
 #include "nonet/team/way_behind.h"
 
+#include "team/behaviors/go_behind.h"
 #include "team/behaviors/push.h"
 
 namespace nonet::team {
@@ -29,11 +30,11 @@ bool blocked(const Situation& s, const Vector2& place) {
 
 // 1: with the ball on the right hand; -1: on the left. On the side where the robot is, unless an opponent
 // stands in that way and the other one is free, and hardly longer.
-double sideAround(const Situation& s, const Vector2& behind) {
+double sideAround(const Situation& s, const BallPlay& play, const Vector2& behind) {
   const BallHandlingParameters& p = s.parameters.ball;
-  const double side = s.play->besides > 0.0 ? -1.0 : 1.0;
-  const Vector2 way = p.circleRadius * s.play->aside;
-  const bool either = std::abs(s.play->besides) < p.circleEither;
+  const double side = play.besides > 0.0 ? -1.0 : 1.0;
+  const Vector2 way = p.circleRadius * play.aside;
+  const bool either = std::abs(play.besides) < p.circleEither;
   return either && blocked(s, behind + side * way) && !blocked(s, behind - side * way) ? -side : side;
 }
 
@@ -50,9 +51,9 @@ Pose2 coast(const world::BodyState& body, double seconds) {
 }
 
 // The curve outside of which the robot goes; wider while its feet point elsewhere.
-BallCurve curveAround(const Situation& s, double turned) {
+BallCurve curveAround(const Situation& s, const BallPlay& play, double turned) {
   const BallHandlingParameters& p = s.parameters.ball;
-  const bool careful = s.play->behind > 0.0 && pushRollsOut(s);
+  const bool careful = play.behind > 0.0 && pushRollsOut(s);
   const double share = std::min(std::abs(turned) / p.turnedAngle, 1.0);
   const double behind = careful ? p.standOff : p.behindBall + share * p.turnedRoom;
   return {behind, std::max(p.circleRadius, behind), p.circleOpen};
@@ -60,16 +61,14 @@ BallCurve curveAround(const Situation& s, double turned) {
 
 }  // namespace
 
-std::optional<Action> goBehindBall(const Situation& s) {
-  if (!s.play) return std::nullopt;
-  const BallPlay& play = *s.play;
+Action goBehind(const Situation& s, const BallPlay& play) {
   const BallHandlingParameters& p = s.parameters.ball;
   const Pose2 X_RThen = coast(s.world.body, p.circleLead);
   const Vector2 ball = X_RThen.inverse() * play.ball;
   const double direction = wrapAngle(play.direction - X_RThen.rotation);
   const Pose2 X_RBall(ball, direction);
-  const BallCurve curve = curveAround(s, direction);
-  const double side = sideAround(s, play.ball - curve.behind * play.along);
+  const BallCurve curve = curveAround(s, play, direction);
+  const double side = sideAround(s, play, play.ball - curve.behind * play.along);
   const WayBehind way = wayBehind(X_RBall.inverse().translation, curve, side);
   const Vector2 next = X_RBall * way.next;
   const double turn = p.turnAlong * std::max(way.length - p.turnLast, 0.0);
@@ -78,6 +77,11 @@ std::optional<Action> goBehindBall(const Situation& s) {
   Action action(walk, way.straight ? "straight" : "around");
   action.reason.candidates = play.candidates;
   return action;
+}
+
+std::optional<Action> goBehindBall(const Situation& s) {
+  if (!s.play) return std::nullopt;
+  return goBehind(s, *s.play);
 }
 
 }  // namespace nonet::team

@@ -5,7 +5,9 @@
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 
+#include "team/behaviors/go_behind.h"
 #include "team/behaviors/kick_action.h"
+#include "team/behaviors/play_aside.h"
 
 namespace nonet::team {
 
@@ -22,11 +24,12 @@ bool betweenPosts(const Situation& s, const Vector2& crossing) {
   return std::abs(crossing.y()) < s.world.field.post();
 }
 
-// Where the longest kick towards the target comes to rest, own field frame.
-Vector2 kickEnd(const Situation& s) {
+// Where the play's kick comes to rest, the longest if it names none; own field frame.
+Vector2 kickEnd(const Situation& s, const BallPlay& play) {
   double longest = 0.0;
-  for (const motion::KickOption& kick : s.motion.kicks) longest = std::max(longest, kick.head.longest);
-  const Vector2 way = s.play->p_FTarget - s.ball();
+  for (const motion::KickOption& kick : s.motion.kicks)
+    if (play.kick.empty() || play.kick == kick.name) longest = std::max(longest, kick.head.longest);
+  const Vector2 way = play.p_FTarget - s.ball();
   return s.ball() + s.parameters.choice.length * longest * way.normalized();
 }
 
@@ -58,12 +61,13 @@ bool canKick(const Situation& s, bool there, double room) {
          s.nearestOpponent >= (there ? p.kickPress : 1.0) * room;
 }
 
-bool mayKick(const Situation& s, bool there) {
+bool mayKick(const Situation& s, const BallPlay& play, bool there) {
   const BallHandlingParameters& p = s.parameters.ball;
   const KickUse use = s.play->use;
-  if (!canKick(s, there, p.kickOpponentDistance)) return false;
+  const double soon = there ? p.kickOpponentDistance : p.kickRoom + p.kickRoomPace * contactTime(s, play);
+  if (!canKick(s, there, std::min(p.kickOpponentDistance, soon))) return false;
   if (use == KickUse::Clear) return true;
-  const Vector2 restsAt = kickEnd(s);
+  const Vector2 restsAt = kickEnd(s, play);
   if (!endsInField(s, restsAt)) return false;
   if (there) return true;
   if (!staysOurs(s, restsAt)) return false;
@@ -109,8 +113,13 @@ std::optional<Action> shoot(const Situation& s) {
 std::optional<Action> kick(const Situation& s) {
   if (!s.play || s.motion.kicks.empty()) return std::nullopt;
   const bool there = isThere(s);
-  if (!mayKick(s, there) || !(there || isBehind(s, *s.play))) return std::nullopt;
-  return kickAction(s, *s.play, there ? "in place" : "line up");
+  const bool straight = mayKick(s, *s.play, there);
+  if (straight && there) return kickAction(s, *s.play, "in place");
+  const std::optional<BallPlay> aside = playAside(s, *s.play, straight);
+  if (aside && mayKick(s, *aside, false))
+    return isBehind(s, *aside) ? kickAction(s, *aside, "line up aside") : goBehind(s, *aside);
+  if (!straight || !isBehind(s, *s.play)) return std::nullopt;
+  return kickAction(s, *s.play, "line up");
 }
 
 }  // namespace nonet::team

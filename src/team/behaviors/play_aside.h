@@ -1,0 +1,18 @@
+// Kicks to the side for who does not face the ball's way: less to turn, so they come off sooner.
+#pragma once
+
+#include <optional>
+
+#include "nonet/team/situation.h"
+
+namespace nonet::team {
+
+/// s until the foot meets the ball in the play's kick; if it names none, in the soonest straight one.
+double contactTime(const Situation& situation, const BallPlay& play);
+
+/// The same play with a kick to the side, if the time until contact, and the distance that it goes less far,
+/// cost less than with any straight kick, or if the straight ones are out of question. Of a play that names
+/// its kick only that one counts.
+std::optional<BallPlay> playAside(const Situation& situation, const BallPlay& straight, bool mayStraight);
+
+}  // namespace nonet::team
