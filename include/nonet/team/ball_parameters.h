@@ -235,7 +235,7 @@ struct BallHandlingParameters {
   double kickLead = 0.0;
   double wayRoom = 0.5;
   double sideKeep = 0.3;
-  double sideLoss = 0.2;
+  double sideLoss = 0.1;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
