@@ -21,9 +21,10 @@ constexpr double kKeepSprintNear = 0.4;
 
 // Out of a run the robot first slows down, nearly straight ahead, until its step is shorter than the sprint
 // set's stopStep: where the set changed at full steps every tenth stop ended in a fall, and every third turn
-// about. Once begun this is done to its end, though the target may be ahead again: from a run that slowed
-// down and at once gathered speed anew robots fell twice as often.
+// about. Done for longer than a moment it is done to its end, though the target may be ahead again: from a
+// run that had slowed down and at once gathered speed anew robots fell twice as often.
 constexpr double kRunOutTurn = 0.5;  // rad/s
+constexpr int kMoment = 4;           // cycles
 
 constexpr double kCalm =
     1.0 / 3.0;  // and until tilt errors are below this share of the one that called for it
@@ -64,9 +65,10 @@ WalkControl::WalkControl(const model::RobotModel& model, const WalkSets& sets, c
 void WalkControl::update(const world::WorldState& world, const MotionRequest& wanted, JointTargets& targets) {
   const MotionRequest request = calmed(world, wanted);
   const WalkSet wantedSet = chooseSet(world, request);
-  runsOut_ = (runsOut_ || wantedSet != set_) && set_ == WalkSet::Sprint && !stumbles() &&
-             engine_.gait().step.translation.x() > sets_.sprint.gait.stopStep;
-  const WalkSet set = runsOut_ ? set_ : wantedSet;
+  const bool runsOut = (slowsSince_ > kMoment || wantedSet != set_) && set_ == WalkSet::Sprint &&
+                       !stumbles() && engine_.gait().step.translation.x() > sets_.sprint.gait.stopStep;
+  slowsSince_ = runsOut ? slowsSince_ + 1 : 0;
+  const WalkSet set = runsOut ? set_ : wantedSet;
   if (set != set_) {
     set_ = set;
     from_ = active_;
@@ -81,7 +83,7 @@ void WalkControl::update(const world::WorldState& world, const MotionRequest& wa
   command.speed = speedFor(request);
   command.walk = std::holds_alternative<WalkVelocity>(request) || std::holds_alternative<WalkTo>(request);
   if (const auto* stand = std::get_if<Stand>(&request)) command.soon = stand->soon;
-  if (runsOut_) command = slowedDown(command.speed.rotation);
+  if (runsOut) command = slowedDown(command.speed.rotation);
   command.run = runShare(world.body.cycleTime);
   engine_.update(world.body, active_, command, targets);
 }

@@ -15,7 +15,7 @@
 namespace nonet::lab {
 namespace {
 
-constexpr int kType = 1;
+constexpr int kType = 2;
 constexpr int kTrials = 8;
 
 class Swings : public testing::Test {

@@ -129,7 +129,7 @@ class WalkControl {
   WalkParameters from_;  // active when the set changed
   WalkParameters active_;
   double blended_ = 1.0;  // share of the change that is done
-  bool runsOut_ = false;  // it slows down before it leaves the sprint set
+  int slowsSince_ = 0;    // cycles in which it slows down to leave the sprint set
   double run_ = 0.0;      // share of the run: it comes with the sprint set, and goes with it
 };
 
