@@ -21,8 +21,8 @@ constexpr double kKeepSprintNear = 0.4;
 
 // Out of a run the robot first slows down, nearly straight ahead, until its step is shorter than the sprint
 // set's stopStep: where the set changed at full steps every tenth stop ended in a fall, and every third turn
-// about. Done for longer than a moment it is done to its end, though the target may be ahead again: from a
-// run that had slowed down and at once gathered speed anew robots fell twice as often.
+// about. Done for longer than a moment it is done to its end, though the target may be ahead again: who had
+// slowed down and at once gathered speed anew fell more often.
 constexpr double kRunOutTurn = 0.5;  // rad/s
 constexpr int kMoment = 4;           // cycles
 
