@@ -26,11 +26,8 @@ bool betweenPosts(const Situation& s, const Vector2& crossing) {
 
 // Where the play's kick comes to rest, the longest if it names none; own field frame.
 Vector2 kickEnd(const Situation& s, const BallPlay& play) {
-  double longest = 0.0;
-  for (const motion::KickOption& kick : s.motion.kicks)
-    if (play.kick.empty() || play.kick == kick.name) longest = std::max(longest, kick.head.longest);
   const Vector2 way = play.p_FTarget - s.ball();
-  return s.ball() + s.parameters.choice.length * longest * way.normalized();
+  return s.ball() + kickLength(s, play.kick) * way.normalized();
 }
 
 bool beyondGoalLine(const Situation& s, const Vector2& end) {

@@ -12,13 +12,6 @@ namespace nonet::team {
 
 namespace {
 
-// How far the longest kick of all takes the ball in play, m.
-double longestKick(const Situation& s) {
-  double longest = 0.0;
-  for (const motion::KickOption& kick : s.motion.kicks) longest = std::max(longest, kick.head.longest);
-  return s.parameters.choice.length * longest;
-}
-
 bool serves(const Situation& s, const BallPlay& play, const motion::KickOption& kick) {
   if (kick.head.isBackward() || kick.head.room > s.nearestOpponent) return false;
   return play.kick.empty() ? !kick.head.scales && !kick.head.isChip() : play.kick == kick.name;
@@ -39,6 +32,13 @@ double costOf(const Situation& s, const BallPlay& straight, const motion::KickOp
 
 }  // namespace
 
+double kickLength(const Situation& s, std::string_view kick) {
+  double longest = 0.0;
+  for (const motion::KickOption& option : s.motion.kicks)
+    if (kick.empty() || kick == option.name) longest = std::max(longest, option.head.longest);
+  return s.parameters.choice.length * longest;
+}
+
 double contactTime(const Situation& s, const BallPlay& play) {
   const double heading = s.world.self.X_FR.rotation + play.direction;
   double least = std::numeric_limits<double>::infinity();
@@ -50,7 +50,7 @@ double contactTime(const Situation& s, const BallPlay& play) {
 }
 
 std::optional<BallPlay> playAside(const Situation& s, const BallPlay& straight, bool mayStraight) {
-  const double longest = longestKick(s);
+  const double longest = kickLength(s, {});
   const motion::KickOption* best = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const motion::KickOption& kick : s.motion.kicks) {

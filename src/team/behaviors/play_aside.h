@@ -2,10 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "nonet/team/situation.h"
 
 namespace nonet::team {
+
+/// How far the kick of that name takes the ball in play, the longest of all for an empty name, m.
+double kickLength(const Situation& situation, std::string_view kick);
 
 /// s until the foot meets the ball in the play's kick; if it names none, in the soonest straight one.
 double contactTime(const Situation& situation, const BallPlay& play);

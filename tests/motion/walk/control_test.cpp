@@ -173,6 +173,20 @@ TEST_F(Sprinter, RunsOutToTheEndThoughTheTargetIsAheadAgain) {
   EXPECT_EQ(sprinter.set(), WalkSet::Sprint);
 }
 
+// Who sees the target aside for a cycle or two runs on.
+TEST_F(Sprinter, DoesNotRunOutForAMoment) {
+  WalkTo turned = walk;
+  turned.target = Pose2(3.0, 1.5, 0.0);
+  const double before = step();
+  for (int i = 0; i < 2; ++i) sprintTo(turned);
+  EXPECT_LT(step(), before);
+  for (int i = 0; i < 50; ++i) {
+    sprintTo(walk);
+    ASSERT_GT(step(), 0.12);
+  }
+  EXPECT_EQ(sprinter.set(), WalkSet::Sprint);
+}
+
 class Sidestepper : public WalkControlTest {
  protected:
   static WalkSelection sidestepping() {
