@@ -28,6 +28,7 @@ const world::WorldState& Robot::sense(const protocol::Percept& percept) {
 void Robot::act(const team::Action& action, protocol::Effectors& effectors) {
   if (action.beam) effectors.beam = action.beam;
   effectors.say = action.say;
+  effectors.pass = action.passMode;
   const motion::HeadRequest head = action.head.value_or(motion::HeadRequest{});
   follow(stages_->motion.update(world(), action.motion, head, action.beam), effectors);
 }

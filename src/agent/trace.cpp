@@ -208,6 +208,7 @@ ordered_json traceOf(const Agent& agent) {
   const team::Action& action = agent.action();
   if (!action.reason.behavior.empty()) json["reason"] = reasonText(action.reason);
   if (!action.reason.candidates.empty()) json["candidates"] = candidatesOf(action.reason);
+  if (action.passMode) json["asks_pass_mode"] = true;
   if (action.say) json["say"] = std::string(action.say->view());
   return json;
 }

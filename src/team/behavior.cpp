@@ -6,6 +6,7 @@
 #include "nonet/math/direction.h"
 #include "nonet/team/behaviors.h"
 #include "nonet/team/charging.h"
+#include "nonet/team/pass_mode.h"
 #include "nonet/team/strategy.h"
 
 namespace nonet::team {
@@ -60,6 +61,7 @@ const Action& Behavior::update(const world::WorldState& world, const motion::Mot
   if (const auto slowly = spareOpponents(situation, action_.motion)) action_.motion = *slowly;
   if (!action_.head) action_.head = glance(situation, action_);
   if (!action_.head) action_.head = lookAtBall(world);
+  action_.passMode = wantsPassMode(situation);
   if (action_.beam) tracker_.noticeBeam(world.time);
   Tidings tidings = tidingsOf(situation);
   tidings.vote = tracker_.vote();

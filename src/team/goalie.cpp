@@ -59,7 +59,7 @@ Vector2 clearanceTarget(const Situation& s) {
 
 bool goalieWantsBall(const Situation& s, bool claims) {
   if (s.phase() == world::Phase::OwnGoalKick) return true;
-  if (s.phase() != world::Phase::PlayOn || comingShot(s)) return false;
+  if (!world::isOpenPlay(s.phase()) || comingShot(s)) return false;
   const GoalieParameters& p = s.parameters.goalie;
   const Vector2 goal = s.world.field.ownGoal();
   const double distance = (s.forecast.at(p.claimAhead) - goal).norm();

@@ -73,7 +73,7 @@ double valueOf(const Situation& s, const world::PlayerState& mate, const Pass& p
 std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
   const PassParameters& p = s.parameters.pass;
   const Vector2 goal = s.world.field.theirGoal();
-  const double left = timeLeftAtBall(s);
+  const double left = std::max(timeLeftAtBall(s), s.undisturbed);
   const std::optional<Vector2> present = presentTarget(s);
   std::optional<Pass> best;
   double most = dribbleValue(s) + p.better;

@@ -28,8 +28,7 @@ Formation placesFor(const Situation& s) {
   FormationParameters parameters = s.parameters.formation;
   if (world::isOpponentSetPiece(s.phase())) {
     // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
-    parameters.stopperBehind =
-        std::max(parameters.stopperBehind, s.parameters.clearOfOpponentKick + parameters.apart);
+    parameters.stopperBehind = std::max(parameters.stopperBehind, s.clearOfOpponentKick() + parameters.apart);
   }
   Formation places =
       formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant, world.opponents);
@@ -79,6 +78,10 @@ BallPlay setPiece(const Situation& s, Candidates* record) {
 bool Situation::waitsForKickOff() const {
   return phase() == world::Phase::BeforeKickOff || phase() == world::Phase::OwnGoal ||
          phase() == world::Phase::OpponentGoal;
+}
+
+double Situation::clearOfOpponentKick() const {
+  return phase() == world::Phase::OpponentPass ? parameters.passMode.clear : parameters.clearOfOpponentKick;
 }
 
 bool Situation::free() const {
@@ -149,7 +152,7 @@ std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {
   if (!s.mayTouch) return std::nullopt;
   if (s.parameters.variant.clearFirst && s.ball().x() < 0.0)
     return playTowards(s, awayTarget(s), KickUse::Clear);
-  if (!s.parameters.choice.use || s.phase() != world::Phase::PlayOn) {
+  if (!s.parameters.choice.use || !world::isOpenPlay(s.phase())) {
     BallPlay play = playTowards(s, s.p_FTarget, KickUse::IfFree);
     play.candidates = s.targets;
     return play;

@@ -1,40 +1,48 @@
 #include "nonet/team/touch_watch.h"
 
-#include <algorithm>
+#include "nonet/team/pass_mode.h"
 
 namespace nonet::team {
 
 void TouchWatch::update(const world::WorldState& world) {
   const world::Phase phase = world.game.phase;
   if (phase != phase_) {
-    const bool wasOwn = world::isOwnSetPiece(phase_) && phase_ != world::Phase::OwnPass;
-    taker_ = 0;
-    if (phase == world::Phase::PlayOn && wasOwn && !world.game.ballDropped) findTaker(world);
+    const bool playOn = phase == world::Phase::PlayOn;
+    const bool wasOwn = world::isOwnSetPiece(phase_) && !world.game.ballDropped;
+    taker_ = playOn && wasOwn ? nearestAtBall(world, true) : Kicker{};
+    passer_ = playOn && phase_ == world::Phase::OwnPass ? nearestAtBall(world, false) : Kicker{};
     phase_ = phase;
   }
-  if (taker_ != 0 && (touchedByAnother(world) || world.time - takenAt_ > parameters_.longest)) taker_ = 0;
+  const auto passed = [&](const Kicker& kicker, double longest, bool opponentsToo) {
+    return world.time - kicker.at > longest || touchedByAnother(world, kicker, opponentsToo);
+  };
+  if (taker_.unum != 0 && passed(taker_, parameters_.longest, true)) taker_ = {};
+  if (passer_.unum != 0 && passed(passer_, kPassModeNoGoal, false)) passer_ = {};
 }
 
-void TouchWatch::findTaker(const world::WorldState& world) {
+// Nobody if it is an opponent.
+TouchWatch::Kicker TouchWatch::nearestAtBall(const world::WorldState& world, bool opponentsToo) const {
   const Vector2 ball = world.ball.p_FB.head<2>();
   double nearest = parameters_.takerReach;
+  Kicker kicker{0, world.time};
   const auto consider = [&](const world::PlayerState& player, int number) {
     const double distance = (player.X_FP.translation - ball).norm();
     if (!player.known || distance > nearest) return;
     nearest = distance;
-    taker_ = number;
+    kicker.unum = number;
   };
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {
     const auto index = static_cast<std::size_t>(unum);
     consider(world.teammates[index], unum);
-    consider(world.opponents[index], 0);  // an opponent may have been first
+    if (opponentsToo) consider(world.opponents[index], 0);
   }
-  takenAt_ = world.time;
+  return kicker;
 }
 
-bool TouchWatch::touchedByAnother(const world::WorldState& world) const {
+bool TouchWatch::touchedByAnother(const world::WorldState& world, const Kicker& kicker,
+                                  bool opponentsToo) const {
   const Vector2 ball = world.ball.p_FB.head<2>();
-  const bool turned = world.ball.lastKick > takenAt_ + parameters_.turnedAfter &&
+  const bool turned = world.ball.lastKick > kicker.at + parameters_.turnedAfter &&
                       world.time - world.ball.lastKick < parameters_.turnedFor;
   const double reach = turned ? parameters_.turnedReach : parameters_.touchReach;
   const auto touches = [&](const world::PlayerState& player) {
@@ -42,8 +50,8 @@ bool TouchWatch::touchedByAnother(const world::WorldState& world) const {
   };
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {
     const auto index = static_cast<std::size_t>(unum);
-    if (unum != taker_ && touches(world.teammates[index])) return true;
-    if (touches(world.opponents[index])) return true;
+    if (unum != kicker.unum && touches(world.teammates[index])) return true;
+    if (opponentsToo && touches(world.opponents[index])) return true;
   }
   return false;
 }

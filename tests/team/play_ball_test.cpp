@@ -268,7 +268,8 @@ TEST(BallTarget, HitsTheGoalAsOftenAsBallsThatAreDrawn) {
 // The oracle rolls the ball centimetre by centimetre.
 TEST(BallTarget, RollsOutWhereItLeavesTheFieldFirst) {
   Random random(4);
-  const BallTargetParameters p;
+  BallTargetParameters p;
+  p.rollsOn = 2.0;
   int out = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     world::WorldState world;

@@ -1,6 +1,7 @@
 // Which behaviour answers in which scene. The scenes are told in the words of the rules, not of the code.
 #include "nonet/team/strategy.h"
 
+#include <array>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -109,7 +110,8 @@ TEST(Strategy, KeepsTheDistanceAtTheOpponentsSetPieces) {
   Random random(3);
   for (int trial = 0; trial < 200; ++trial) {
     Scene scene;
-    scene.world.game.phase = trial % 2 == 0 ? Phase::OpponentFreeKick : Phase::OpponentKickIn;
+    constexpr std::array kPhases = {Phase::OpponentFreeKick, Phase::OpponentKickIn, Phase::OpponentPass};
+    scene.world.game.phase = kPhases[static_cast<std::size_t>(trial) % kPhases.size()];
     scene.putBall({random.uniform(-12.0, 12.0), random.uniform(-9.0, 9.0)});
     scene.stand(Pose2(random.uniform(-12.0, 12.0), random.uniform(-9.0, 9.0), 0.0));
     for (int role = 0; role < kFieldRoles; ++role) {
@@ -121,7 +123,8 @@ TEST(Strategy, KeepsTheDistanceAtTheOpponentsSetPieces) {
     // From the own side, with nothing in the way, the request leads to the place itself.
     const Vector2 ball = scene.world.ball.p_FB.head<2>();
     const Vector2 way = (Vector2(-15.0, 0.0) - ball).normalized();
-    const double clear = scene.parameters.clearOfOpponentKick;
+    const double clear = scene.world.game.phase == Phase::OpponentPass ? scene.parameters.passMode.clear
+                                                                       : scene.parameters.clearOfOpponentKick;
     scene.stand(Pose2(ball + (clear + 1.0) * way, 0.0));
     const Vector2 place = goalOf(scene, *opponentSetPiece(scene.situation(Role::OnBall)));
     EXPECT_NEAR((place - ball).norm(), clear, 1e-6);

@@ -81,5 +81,38 @@ TEST_F(Scene, TheNextStopOfTheGameEndsTheBan) {
   EXPECT_EQ(watch.banned(), 0);
 }
 
+// Server facts 4.9: until a mate has touched the ball, too, or ten seconds are over.
+TEST_F(Scene, WhoKicksInPassModeCannotScoreAloneForTenSeconds) {
+  play(world::Phase::OwnPass, 2.0);
+  EXPECT_EQ(watch.barred(), 0) << "nobody can score in the mode itself";
+  play(world::Phase::PlayOn, 0.1);
+  EXPECT_EQ(watch.barred(), 9);
+  EXPECT_EQ(watch.banned(), 0) << "but may touch the ball";
+  ball(2.4, 0.1);
+  play(world::Phase::PlayOn, 1.0);
+  EXPECT_EQ(watch.barred(), 9) << "an opponent's touch changes nothing";
+  ball(-0.9, -0.9);
+  play(world::Phase::PlayOn, 0.1);
+  EXPECT_EQ(watch.barred(), 0) << "number 6 has it";
+
+  ball(0.0, 0.0);
+  play(world::Phase::OwnPass, 2.0);
+  ball(5.0, 5.0);
+  place(world.teammates[9], 4.8, 5.0);
+  play(world::Phase::PlayOn, 9.9);
+  EXPECT_EQ(watch.barred(), 9);
+  play(world::Phase::PlayOn, 0.2);
+  EXPECT_EQ(watch.barred(), 0);
+}
+
+TEST_F(Scene, ASetPieceEndsThatBan) {
+  play(world::Phase::OwnPass, 2.0);
+  play(world::Phase::PlayOn, 1.0);
+  ASSERT_EQ(watch.barred(), 9);
+  play(world::Phase::OwnKickIn, 1.0);
+  play(world::Phase::PlayOn, 0.1);
+  EXPECT_EQ(watch.barred(), 0);
+}
+
 }  // namespace
 }  // namespace nonet::team

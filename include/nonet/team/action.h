@@ -59,6 +59,7 @@ struct Action {
   std::optional<Pose2> beam;                // own field frame
   std::optional<PassAnnouncement> pass;     // for as long as the pass is going to be played
   std::optional<InlineString<64>> say;      // at most 20 allowed characters
+  bool passMode = false;                    // asks the referee for it (pass_mode.h)
   Reason reason;
 };
 

@@ -27,7 +27,7 @@ struct BallTargetParameters {
   double facingCost = 0.05;
   double keep = 0.2;
   double touchLineMargin = 0.2;
-  double rollsOn = 2.0;
+  double rollsOn = 1.4;
   double postMargin = 0.1;
   double around = 2.0;
 
@@ -212,7 +212,7 @@ struct BallHandlingParameters {
   double turnedAngle = 1.6;
   double circleRoom = 0.3;
   double circleEither = 0.2;
-  double dribbleThrough = 0.6;
+  double dribbleThrough = 0.4;
   double alignedAngle = 0.45;
   double alignedAside = 0.10;
   bool kick = true;
@@ -223,7 +223,7 @@ struct BallHandlingParameters {
   double kickLane = 0.3;
   double handleDistance = 0.9;
   double waitBehind = 0.35;
-  double kickPress = 0.4;
+  double kickPress = 0.25;
   double kickLaneLength = 3.0;
   double kickRolling = 0.3;
   double kickBehind = 0.08;
@@ -232,10 +232,10 @@ struct BallHandlingParameters {
   double waitRoom = 0.25;
   double awaitMargin = 1.5;
   double awaitAside = 0.3;
-  double kickLead = 0.0;
+  double kickLead = 0.5;
   double wayRoom = 0.5;
   double sideKeep = 0.3;
-  double sideLoss = 0.1;
+  double sideLoss = 0.2;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {

@@ -14,7 +14,7 @@ struct ChoiceParameters {
   double spread = 0.06;
   double blockWidth = 0.3;
   double blockGrowth = 0.12;
-  double ownPace = 0.9;
+  double ownPace = 1.1;
   double opponentPace = 0.6;
   double arrivalSpread = 0.8;
   double setupStand = 0.65;

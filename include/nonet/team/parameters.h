@@ -8,6 +8,7 @@
 #include "nonet/team/challenge_parameters.h"
 #include "nonet/team/choice_parameters.h"
 #include "nonet/team/goalie_parameters.h"
+#include "nonet/team/pass_mode_parameters.h"
 #include "nonet/team/pass_parameters.h"
 #include "nonet/team/place_parameters.h"
 #include "nonet/team/variant_parameters.h"
@@ -259,6 +260,7 @@ struct TeamParameters {
   DribbleParameters dribble;
   ReceiveParameters receive;
   PassParameters pass;
+  PassModeParameters passMode;
   ChoiceParameters choice;
   GoalieParameters goalie;
   PaceParameters pace;
@@ -291,6 +293,7 @@ struct TeamParameters {
     visit.group("dribble", self.dribble);
     visit.group("receive", self.receive);
     visit.group("pass", self.pass);
+    visit.group("passMode", self.passMode);
     visit.group("choice", self.choice);
     visit.group("goalie", self.goalie);
     visit.group("pace", self.pace);

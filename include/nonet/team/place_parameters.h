@@ -13,7 +13,7 @@ struct FormationParameters {
   double forwardAside = 2.5;
   double wingBehind = 2.5;
   double wingAside = 2.0;
-  double stopperBehind = 3.5;
+  double stopperBehind = 2.0;
   double supporterBehind = 4.0;
   double firstBackFromGoal = 4.0;
   double secondBackFromGoal = 7.0;
@@ -209,7 +209,7 @@ struct NavigationParameters {
   double pace = 1.2;
   double fallenRoom = 0.2;
   double atBall = 0.6;
-  double bodyRoom = 0.35;
+  double bodyRoom = 0.28;
   double headingDistance = 0.7;
   double turnCost = 0.2;
   double closeEnough = 0.12;

@@ -36,6 +36,8 @@ struct Situation {
   Role role = Role::Stopper;  // one's own
   int onBall = 0;             // number of the field player on the ball as agreed, 0 before any vote
   bool mayTouch = true;       // false after a set piece that one has taken, until another touched the ball
+  bool mayScore = true;       // false in the own pass mode and after one's kick in it, until a mate touched
+  double undisturbed = 0.0;   // s that the referee keeps opponents off the ball (pass_mode.h)
   bool goalieClaims = false;  // the goalie has said that it goes to the ball
   bool claims = false;        // one is the goalie and goes to the ball
   std::optional<SetPlay> setPlay{};  // plan of the own set piece that runs
@@ -46,6 +48,8 @@ struct Situation {
   Vector2 ball() const { return world.ball.p_FB.head<2>(); }
   world::Phase phase() const { return world.game.phase; }
   bool waitsForKickOff() const;
+  /// m from the ball that everybody keeps while the opponents have it to themselves.
+  double clearOfOpponentKick() const;
   /// The clock runs and the body is free to do something.
   bool free() const;
   /// Free, and it is known where one is and where the ball is.

@@ -1,5 +1,6 @@
-// Who must leave the ball to somebody else: the player that took the own set piece may not touch the ball
-// again before another player has (double touch rule, server facts 4.5).
+// Who must leave something to somebody else until another player has touched the ball: the player that took
+// the own set piece may not touch the ball again (double touch rule, server facts 4.5), and who kicked in the
+// own pass mode cannot score (4.9).
 #pragma once
 
 #include "nonet/team/parameters.h"
@@ -12,17 +13,24 @@ class TouchWatch {
   explicit TouchWatch(const TouchParameters& parameters = {}) : parameters_(parameters) {}
 
   void update(const world::WorldState& world);
-  /// Number of that team mate (or oneself), 0: everybody may.
-  int banned() const { return taker_; }
+  /// Number of the team mate (or oneself) that may not touch the ball, 0: everybody may.
+  int banned() const { return taker_.unum; }
+  /// Number of the one that cannot score, 0: everybody can.
+  int barred() const { return passer_.unum; }
 
  private:
-  void findTaker(const world::WorldState& world);
-  bool touchedByAnother(const world::WorldState& world) const;
+  struct Kicker {
+    int unum = 0;
+    double at = world::kNever;  // server time, s
+  };
+
+  Kicker nearestAtBall(const world::WorldState& world, bool opponentsToo) const;
+  bool touchedByAnother(const world::WorldState& world, const Kicker& kicker, bool opponentsToo) const;
 
   TouchParameters parameters_;
   world::Phase phase_ = world::Phase::Other;
-  double takenAt_ = world::kNever;  // server time, s
-  int taker_ = 0;
+  Kicker taker_;
+  Kicker passer_;
 };
 
 }  // namespace nonet::team

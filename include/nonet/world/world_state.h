@@ -73,11 +73,16 @@ enum class Phase : std::uint8_t {
   Other,
 };
 
-/// Phases in which the own team / the opponents take the kick (kick-off to direct free kick, pass mode).
+/// Everybody of us plays on; the own pass mode (server facts 4.9) is open play in which opponents are kept
+/// off.
+constexpr bool isOpenPlay(Phase phase) {
+  return phase == Phase::PlayOn || phase == Phase::OwnPass;
+}
+/// Phases in which the own team takes the kick (kick-off to direct free kick), and in which the opponents do
+/// (these and their pass mode).
 constexpr bool isOwnSetPiece(Phase phase) {
   return phase == Phase::OwnKickOff || phase == Phase::OwnKickIn || phase == Phase::OwnCorner ||
-         phase == Phase::OwnGoalKick || phase == Phase::OwnFreeKick || phase == Phase::OwnDirectFreeKick ||
-         phase == Phase::OwnPass;
+         phase == Phase::OwnGoalKick || phase == Phase::OwnFreeKick || phase == Phase::OwnDirectFreeKick;
 }
 constexpr bool isOpponentSetPiece(Phase phase) {
   return phase == Phase::OpponentKickOff || phase == Phase::OpponentKickIn ||

@@ -23,7 +23,7 @@ double timeToMeet(const ComingShot& shot, const GoalieParameters& p) {
 // A dive costs the time of rising: only for a ball that goes into the goal, and too far aside to step there.
 std::optional<Action> dive(const Situation& s) {
   const GoalieParameters& p = s.parameters.goalie;
-  const bool open = s.role == Role::Goalie && s.phase() == world::Phase::PlayOn;
+  const bool open = s.role == Role::Goalie && world::isOpenPlay(s.phase());
   if (!p.dive || !open || s.world.time - s.world.ball.lastSeen > p.oldestSight) return std::nullopt;
   const std::optional<ComingShot> shot = comingShot(s);
   if (!shot) return std::nullopt;

@@ -14,8 +14,8 @@ namespace nonet::team {
 namespace {
 
 // Where the ball's way to its target meets the goal line, own field frame.
-Vector2 goalCrossing(const Situation& s) {
-  const Vector2 way = s.play->p_FTarget - s.ball();
+Vector2 goalCrossing(const Situation& s, const BallPlay& play) {
+  const Vector2 way = play.p_FTarget - s.ball();
   const double toLine = s.world.field.goalLine() - s.ball().x();
   return s.ball() + toLine / std::max(way.x(), 1e-6) * way;
 }
@@ -34,19 +34,19 @@ bool beyondGoalLine(const Situation& s, const Vector2& end) {
   return end.x() > s.world.field.goalLine();
 }
 
-bool endsInGoal(const Situation& s, const Vector2& end) {
-  return beyondGoalLine(s, end) && betweenPosts(s, goalCrossing(s));
+bool endsInGoal(const Situation& s, const BallPlay& play, const Vector2& end) {
+  return s.mayScore && beyondGoalLine(s, end) && betweenPosts(s, goalCrossing(s, play));
 }
 
-bool endsInField(const Situation& s, const Vector2& end) {
+bool endsInField(const Situation& s, const BallPlay& play, const Vector2& end) {
   if (std::abs(end.y()) > s.world.field.touchLine()) return false;
-  return !beyondGoalLine(s, end) || endsInGoal(s, end);
+  return !beyondGoalLine(s, end) || endsInGoal(s, play, end);
 }
 
 // One of us is first where the longest kick towards the target comes to rest. A ball that crosses the line
 // between the posts need not be caught.
-bool staysOurs(const Situation& s, const Vector2& end) {
-  if (endsInGoal(s, end)) return true;
+bool staysOurs(const Situation& s, const BallPlay& play, const Vector2& end) {
+  if (endsInGoal(s, play, end)) return true;
   return teammatesTime(s, end) + s.parameters.ball.kickLead < opponentsTime(s, end);
 }
 
@@ -61,15 +61,17 @@ bool canKick(const Situation& s, bool there, double room) {
 bool mayKick(const Situation& s, const BallPlay& play, bool there) {
   const BallHandlingParameters& p = s.parameters.ball;
   const KickUse use = s.play->use;
-  const double soon = there ? p.kickOpponentDistance : p.kickRoom + p.kickRoomPace * contactTime(s, play);
-  if (!canKick(s, there, std::min(p.kickOpponentDistance, soon))) return false;
+  const double contact = contactTime(s, play);
+  const double soon = there ? p.kickOpponentDistance : p.kickRoom + p.kickRoomPace * contact;
+  const double room = s.undisturbed > contact ? 0.0 : std::min(p.kickOpponentDistance, soon);
+  if (!canKick(s, there, room)) return false;
   if (use == KickUse::Clear) return true;
   const Vector2 restsAt = kickEnd(s, play);
-  if (!endsInField(s, restsAt)) return false;
+  if (!endsInField(s, play, restsAt)) return false;
   if (there) return true;
-  if (!staysOurs(s, restsAt)) return false;
+  if (!staysOurs(s, play, restsAt)) return false;
   const Vector2 from = s.ball();
-  const Vector2 way = s.play->p_FTarget - from;
+  const Vector2 way = play.p_FTarget - from;
   const Vector2 end = from + std::min(1.0, p.kickLaneLength / std::max(way.norm(), 1e-6)) * way;
   return laneWidth(s.world, from, end, std::numeric_limits<double>::infinity()) > p.kickLane;
 }
@@ -96,7 +98,7 @@ bool isThere(const Situation& s) {
 
 std::optional<Action> shoot(const Situation& s) {
   const ShotParameters& p = s.parameters.shot;
-  if (!s.play || s.phase() != world::Phase::PlayOn) return std::nullopt;
+  if (!s.play || !s.mayScore || s.phase() != world::Phase::PlayOn) return std::nullopt;
   const bool there = isThere(s);
   if (!canKick(s, there, p.room)) return std::nullopt;
   const std::optional<Shot> shot = bestShot(s.world, s.motion.kicks, p);

@@ -62,7 +62,7 @@ double worthOfKick(const Situation& s, const motion::KickHead& kick, double dire
 // The forward kick cannot pass who stands in front of the ball, and both push it nowhere.
 std::optional<Action> kickAside(const Situation& s) {
   const AsideParameters& p = s.parameters.aside;
-  if (!p.use || !s.play || s.phase() != world::Phase::PlayOn || s.role == Role::Goalie) return std::nullopt;
+  if (!p.use || !s.play || !world::isOpenPlay(s.phase()) || s.role == Role::Goalie) return std::nullopt;
   if (s.play->ball.norm() > p.near || s.world.ball.v_FB.head<2>().norm() > p.rolling) return std::nullopt;
   if (!isHeldUp(s)) return std::nullopt;
   const motion::KickOption* best = nullptr;

@@ -30,7 +30,7 @@ std::optional<Action> opponentSetPiece(const Situation& s) {
   const bool blocks = s.role == Role::OnBall;
   Vector2 place = blocks ? Vector2(ball + kAnyDistance * (ownGoal - ball).normalized()) : rolePlace(s);
   const Vector2 away = place - ball;
-  const double clear = s.parameters.clearOfOpponentKick;
+  const double clear = s.clearOfOpponentKick();
   if (away.norm() < clear) place = ball + clear * (away + Vector2(-kTieBreak, 0.0)).normalized();
   if (s.phase() == world::Phase::OpponentGoalKick) place = outOfTheirArea(s, place);
   if (s.phase() == world::Phase::OpponentKickOff)

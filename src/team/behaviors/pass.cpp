@@ -16,9 +16,8 @@ bool canPass(const Situation& s) {
   const PassParameters& p = s.parameters.pass;
   const BallHandlingParameters& ball = s.parameters.ball;
   if (!p.use || !ball.kick || !s.play || s.play->use != KickUse::IfFree) return false;
-  if (s.phase() != world::Phase::PlayOn || s.world.ball.v_FB.head<2>().norm() > ball.kickRolling)
-    return false;
-  return s.nearestOpponent >= (inPlace(s) ? ball.kickPress : 1.0) * p.room;
+  if (!world::isOpenPlay(s.phase()) || s.world.ball.v_FB.head<2>().norm() > ball.kickRolling) return false;
+  return s.undisturbed > 0.0 || s.nearestOpponent >= (inPlace(s) ? ball.kickPress : 1.0) * p.room;
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::optional<Meeting> meetingOf(const Vector2& ball, const Vector2& velocity, c
 
 std::optional<Action> receive(const Situation& s) {
   const ReceiveParameters& p = s.parameters.receive;
-  if (!p.use || !s.play || s.play->wait || s.phase() != world::Phase::PlayOn) return std::nullopt;
+  if (!p.use || !s.play || s.play->wait || !world::isOpenPlay(s.phase())) return std::nullopt;
   const Vector2 velocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
   const Vector2& ball = s.play->ball;
   const double comes = -velocity.dot(ball) / std::max(ball.norm(), 1e-6);

@@ -11,7 +11,7 @@ namespace {
 bool awaits(const Situation& s) {
   const world::PassReport& pass = s.world.pass;
   const PassParameters& p = s.parameters.pass;
-  if (pass.receiver != s.world.game.unum || s.phase() != world::Phase::PlayOn) return false;
+  if (pass.receiver != s.world.game.unum || !world::isOpenPlay(s.phase())) return false;
   if (s.world.time > pass.thereAt + p.late) return false;
   if (s.world.time < pass.kickAt + p.late) return true;
   const Vector2 rest = s.forecast.at(s.parameters.pace.longestRoll);
