@@ -264,6 +264,7 @@ std::string traceText(const ordered_json& trace) {
     }
     text += trace[team].empty() ? "nobody known\n" : "\n";
   }
+  if (trace.contains("asks_pass_mode")) text += "  asks      the referee for pass mode\n";
   if (trace.contains("say")) text += fmt::format("  says      {}\n", std::string(trace["say"]));
   return text;
 }

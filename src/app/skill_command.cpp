@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "nonet/app/commands.h"
+#include "nonet/config/toml.h"
 #include "nonet/motion/skill_language.h"
 #include "nonet/motion/skill_library.h"
 
@@ -24,10 +24,8 @@ struct SkillArguments {
   bool testOnly = false;  // format: write nothing, fail if a file would change
 };
 
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(fmt::format("{}: cannot be read", path));
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+std::string readSkills(const std::string& path) {
+  return config::readText(path, "skill file");
 }
 
 // A folder stands for the *.skl files in it.
@@ -46,7 +44,7 @@ std::vector<std::string> expand(const std::vector<std::string>& arguments) {
 
 /// The check of a file, beside which stand skills that those in it may be like.
 motion::SkillCheck checkFile(const std::string& file) {
-  return motion::checkSkills(readFile(file), file, motion::skillTexts(motion::skillFolderOf(file)));
+  return motion::checkSkills(readSkills(file), file, motion::skillTexts(motion::skillFolderOf(file)));
 }
 
 /// Skills of the files beside `files`, for calls into them. Those that make no sense are not this check's
@@ -132,7 +130,7 @@ int check(const SkillArguments& arguments) {
 int format(const SkillArguments& arguments) {
   int changed = 0;
   for (const std::string& file : expand(arguments.files)) {
-    const std::string before = readFile(file);
+    const std::string before = readSkills(file);
     const std::string after =
         motion::formatSkills(before, file, motion::skillTexts(motion::skillFolderOf(file)));
     if (after == before) continue;

@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 
 #include <fmt/format.h>
 
+#include "nonet/config/toml.h"
 #include "nonet/motion/skill_language.h"
 
 namespace nonet::motion {
 
 namespace {
-
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw SkillError(path + ": cannot be read");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 [[noreturn]] void failIn(const Skill& skill, const Instruction& at, const std::string& message) {
   throw SkillError(fmt::format("{}:{}:{}: {}", skill.textFile, at.line, at.column, message));
@@ -97,7 +90,8 @@ std::string skillFolderOf(const std::string& file) {
 
 std::vector<SkillText> skillTexts(const std::string& skillFolder) {
   std::vector<SkillText> texts;
-  for (const std::string& path : skillFiles(skillFolder)) texts.push_back({path, readFile(path)});
+  for (const std::string& path : skillFiles(skillFolder))
+    texts.push_back({path, config::readText(path, "skill file")});
   return texts;
 }
 
