@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <mutex>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -90,8 +91,12 @@ std::string skillFolderOf(const std::string& file) {
 
 std::vector<SkillText> skillTexts(const std::string& skillFolder) {
   std::vector<SkillText> texts;
-  for (const std::string& path : skillFiles(skillFolder))
-    texts.push_back({path, config::readText(path, "skill file")});
+  try {
+    for (const std::string& path : skillFiles(skillFolder))
+      texts.push_back({path, config::readText(path, "skill file")});
+  } catch (const std::runtime_error& error) {
+    throw SkillError(error.what());
+  }
   return texts;
 }
 

@@ -7,6 +7,7 @@
 #include "nonet/math/direction.h"
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/goalie.h"
+#include "nonet/team/pass_mode.h"
 
 namespace nonet::team {
 
@@ -134,6 +135,10 @@ Situation assess(const world::WorldState& world, const TeamParameters& parameter
   const world::RadioReport& goalie = world.radio[1];
   s.goalieClaims = world.time - goalie.time < parameters.agreement.claimAge && goalie.message.timeToBall &&
                    !goalie.message.fallen;
+  if (s.phase() == world::Phase::OwnPass) {
+    s.mayScore = false;
+    s.undisturbed = std::max(0.0, world.game.phaseSince + kPassModeTime - world.time);
+  }
   if (world::isOwnSetPiece(s.phase()))
     s.setPlay = setPlayFor(s.phase(), s.ball(), world.field, parameters.setPlay);
   s.formation = placesFor(s);

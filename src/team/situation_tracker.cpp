@@ -1,9 +1,6 @@
 #include "nonet/team/situation_tracker.h"
 
-#include <algorithm>
-
 #include "nonet/math/direction.h"
-#include "nonet/team/pass_mode.h"
 
 namespace nonet::team {
 
@@ -21,9 +18,7 @@ Situation SituationTracker::update(const world::WorldState& world, const motion:
   situation.role = world.game.unum == 1 ? Role::Goalie : voting_.role();
   situation.onBall = voting_.onBall();
   situation.mayTouch = banned != world.game.unum;
-  const bool passMode = world.game.phase == world::Phase::OwnPass;
-  situation.mayScore = !passMode && touches_.barred() != world.game.unum;
-  if (passMode) situation.undisturbed = std::max(0.0, world.game.phaseSince + kPassModeTime - world.time);
+  if (touches_.barred() == world.game.unum) situation.mayScore = false;
   if (situation.role == Role::Goalie && situation.acts())
     claims_ = situation.mayTouch && goalieWantsBall(situation, claims_);
   situation.claims = claims_;

@@ -1,5 +1,6 @@
 #include "nonet/motion/skill_language.h"
 
+#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -238,6 +239,18 @@ TEST(SkillFormat, NormalisesAndKeepsCommentsAndMeaning) {
   const std::string formatted = formatSkills(text, "f");
   EXPECT_EQ(formatted, expected);
   EXPECT_EQ(formatSkills(formatted, "f"), formatted);
+}
+
+TEST(SkillFolder, AFileThatCannotBeReadIsAnErrorThatNamesIt) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "nonet_skills_unreadable";
+  std::filesystem::create_directories(folder / "broken.skl");  // a folder in the place of a file
+  try {
+    skillTexts(folder.string());
+    ADD_FAILURE() << "no error";
+  } catch (const SkillError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("broken.skl: cannot be read"));
+  }
+  std::filesystem::remove_all(folder);
 }
 
 // The formatter may change blanks only: the words stay the same, for every shipped skill and for random cuts

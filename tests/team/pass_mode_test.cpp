@@ -34,10 +34,8 @@ struct Disturbed : Scene {
   // The referee has given it.
   Situation given() {
     world.game.phase = Phase::OwnPass;
-    Situation given = situation(Role::OnBall);
-    given.undisturbed = kPassModeTime;
-    given.mayScore = false;
-    return given;
+    world.game.phaseSince = world.time;
+    return situation(Role::OnBall);
   }
 
   std::array<motion::KickOption, 1> slowKicks;
