@@ -4,7 +4,7 @@
 #   scripts/try_packages.sh FOLDER [deb|tgz|bundle...]
 # FOLDER holds the bare system (made once) and one copy of it for each package. Default: all three. Ends with 1 if a package
 # cannot be installed, misses a library, or does not play a flawless match.
-set -euo pipefail
+set -Eeuo pipefail
 cd "$(dirname "$0")/.."
 [ $# -ge 1 ] || { sed -n '2,6s/^# \?//p' "$0" >&2; exit 2; }
 [ "$(id -u)" -eq 0 ] || { echo "try_packages: run this as root" >&2; exit 2; }
@@ -15,6 +15,7 @@ shift
 mounted=()
 cleanUp() { for place in "${mounted[@]}"; do umount "$place"; done; }
 trap cleanUp EXIT
+trap 'echo "try_packages: line $LINENO failed; the logs are in $folder" >&2' ERR
 
 bare() {
   [ -e "$folder/debian/etc/debian_version" ] ||
@@ -78,9 +79,9 @@ for kind in "$@"; do
       play deb /usr/bin/nonet
       ;;
     tgz)
-      # The archive brings no libraries: they come as what the Debian package asks for.
+      # The archive brings no libraries: they come as what the Debian package asks for, the first of alternatives.
       build build/release DEB
-      needed=$(dpkg-deb -f "$(newest build/release/nonet_*.deb)" Depends | sed 's/([^)]*)//g; s/,/ /g')
+      needed=$(dpkg-deb -f "$(newest build/release/nonet_*.deb)" Depends | sed 's/([^)]*)//g; s/|[^,]*//g; s/,/ /g')
       installThere tgz "$needed"
       build build/release TGZ
       unpack tgz "$(newest build/release/nonet-*-Linux.tar.gz)"

@@ -53,14 +53,23 @@ void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter)
   painter->show(thought.agent);
 }
 
-/// What is measured beside the result, as far as it was asked for.
-struct Measurements {
-  lab::MatchLocalization localization;
-  lab::MatchAgreement agreement;
-  lab::MatchKicks kicks;
+/// What is measured beside the result; the name is its key in the JSON.
+struct Measurement {
+  std::string name;
+  std::unique_ptr<lab::MatchMeasure> measure;
 };
+using Measurements = std::vector<Measurement>;
 
-lab::MatchResult playHere(const MatchArguments& arguments, Console& console, Measurements& measured) {
+Measurements askedFor(const MatchArguments& arguments) {
+  Measurements measurements;
+  if (arguments.localization)
+    measurements.push_back({"localization", std::make_unique<lab::MatchLocalization>()});
+  if (arguments.agreement) measurements.push_back({"agreement", std::make_unique<lab::MatchAgreement>()});
+  if (arguments.kicks) measurements.push_back({"kicks", std::make_unique<lab::MatchKicks>()});
+  return measurements;
+}
+
+lab::MatchResult playHere(const MatchArguments& arguments, Console& console, const Measurements& measured) {
   const lab::MatchSettings& match = arguments.settings.match;
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int threads = arguments.threads > 0 ? arguments.threads : cores;
@@ -70,20 +79,15 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console, Mea
   lab::MatchObservers observers;
   observers.afterCycle = [&](const sim::Simulation& simulation, const lab::MatchWatcher& watcher) {
     if (console.due()) console.progress(watcher.progress(simulation));
-    if (arguments.localization) measured.localization.afterCycle(simulation);
-    if (arguments.agreement) measured.agreement.afterCycle(simulation);
-    if (arguments.kicks) measured.kicks.afterCycle(simulation);
+    for (const Measurement& measurement : measured) measurement.measure->afterCycle(simulation);
     return !StopSignal::came();
   };
   std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
   std::map<sim::AgentHandle, std::unique_ptr<RobovizPainter>> painters;
   const TcpMatchSettings& settings = arguments.settings;
-  const bool measures = arguments.localization || arguments.agreement || arguments.kicks;
-  if (measures || settings.draw || !settings.traces.empty()) {
+  if (!measured.empty() || settings.draw || !settings.traces.empty()) {
     observers.afterThought = [&](const lab::Thought& thought) {
-      if (arguments.localization) measured.localization.afterThought(thought);
-      if (arguments.agreement) measured.agreement.afterThought(thought);
-      if (arguments.kicks) measured.kicks.afterThought(thought);
+      for (const Measurement& measurement : measured) measurement.measure->afterThought(thought);
       if (!settings.traces.empty()) addTrace(settings.traces, thought, traces[thought.handle]);
       if (settings.draw) draw(thought, painters[thought.handle]);
     };
@@ -140,18 +144,14 @@ int runMatch(MatchArguments& arguments) {
   if (!arguments.settings.traces.empty()) std::filesystem::create_directories(arguments.settings.traces);
 
   Console console;
-  Measurements measured;
+  const Measurements measured = askedFor(arguments);
   const lab::MatchResult result =
       arguments.inProcess ? playHere(arguments, console, measured) : playOverTcp(arguments.settings, console);
   fmt::print("{}", result.toText());
-  if (arguments.localization) fmt::print("{}", measured.localization.toText());
-  if (arguments.agreement) fmt::print("{}", measured.agreement.toText());
-  if (arguments.kicks) fmt::print("{}", measured.kicks.toText());
+  for (const Measurement& measurement : measured) fmt::print("{}", measurement.measure->toText());
   std::ofstream file(arguments.json);
   nlohmann::ordered_json json = result.toJson();
-  if (arguments.localization) json["localization"] = measured.localization.toJson();
-  if (arguments.agreement) json["agreement"] = measured.agreement.toJson();
-  if (arguments.kicks) json["kicks"] = measured.kicks.toJson();
+  for (const Measurement& measurement : measured) json[measurement.name] = measurement.measure->toJson();
   file << json.dump(2) << "\n";
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
   fmt::print("result in {}\n", arguments.json);

@@ -30,6 +30,7 @@ struct MotionState {
   std::span<const KickOption> kicks;  // all that this robot can do
 
   bool askedForKick() const { return std::holds_alternative<KickTo>(request); }
+  bool kickInPlace() const { return askedForKick() && kick.inPlace; }  // and the ball lies where it wants it
 };
 
 }  // namespace nonet::motion

@@ -6,7 +6,7 @@
 namespace nonet::team {
 
 struct AsideParameters {
-  bool use = false;  // not proven: docs/results.md
+  bool use = false;  // not proven: docs/history.md
   double opponent = 1.2;
   double barred = 0.3;
   double fromGoal = 10.0;

@@ -6,7 +6,7 @@
 namespace nonet::team {
 
 struct ChoiceParameters {
-  bool use = false;  // not proven yet: docs/results.md
+  bool use = false;  // not proven yet: docs/history.md
   double worthMost = 0.3;
   double worthScale = 6.0;
   double length = 0.9;

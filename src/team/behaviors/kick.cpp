@@ -91,7 +91,7 @@ bool goesAside(const Situation& s, std::string_view kick) {
 
 // In the place for a kick, which is not one to the side.
 bool isThere(const Situation& s) {
-  return s.motion.askedForKick() && s.motion.kick.inPlace && !goesAside(s, s.motion.kick.name);
+  return s.motion.kickInPlace() && !goesAside(s, s.motion.kick.name);
 }
 
 }  // namespace

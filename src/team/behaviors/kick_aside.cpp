@@ -85,7 +85,7 @@ std::optional<Action> kickAside(const Situation& s) {
   BallPlay play = playTowards(s, target, KickUse::Clear);
   play.kick = best->name;
   play.candidates = s.play->candidates;
-  return kickAction(s, play, s.motion.askedForKick() && s.motion.kick.inPlace ? "in place" : "line up");
+  return kickAction(s, play, s.motion.kickInPlace() ? "in place" : "line up");
 }
 
 }  // namespace nonet::team

@@ -8,16 +8,12 @@ namespace nonet::team {
 
 namespace {
 
-bool inPlace(const Situation& s) {
-  return s.motion.askedForKick() && s.motion.kick.inPlace;
-}
-
 bool canPass(const Situation& s) {
   const PassParameters& p = s.parameters.pass;
   const BallHandlingParameters& ball = s.parameters.ball;
   if (!p.use || !ball.kick || !s.play || s.play->use != KickUse::IfFree) return false;
   if (!world::isOpenPlay(s.phase()) || s.world.ball.v_FB.head<2>().norm() > ball.kickRolling) return false;
-  return s.undisturbed > 0.0 || s.nearestOpponent >= (inPlace(s) ? ball.kickPress : 1.0) * p.room;
+  return s.undisturbed > 0.0 || s.nearestOpponent >= (s.motion.kickInPlace() ? ball.kickPress : 1.0) * p.room;
 }
 
 }  // namespace
@@ -28,7 +24,7 @@ std::optional<Action> pass(const Situation& s) {
   if (!best) return std::nullopt;
   BallPlay play = playTowards(s, best->p_FTarget, s.play->use);
   play.kick = best->kick;
-  Action action = kickAction(s, play, inPlace(s) ? "in place" : "line up");
+  Action action = kickAction(s, play, s.motion.kickInPlace() ? "in place" : "line up");
   std::get<motion::KickTo>(action.motion).stops = true;
   action.pass = PassAnnouncement{best->receiver, best->p_FTarget, s.world.time + best->untilKick,
                                  s.world.time + best->untilThere};

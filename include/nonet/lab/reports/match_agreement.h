@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/lab/match/match.h"
+#include "nonet/lab/reports/match_measure.h"
 #include "nonet/protocol/say_codec.h"
 #include "nonet/sim/simulation.h"
 
@@ -26,12 +27,10 @@ struct Unity {
 };
 Unity unityOf(const AgreedRoles& players);
 
-class MatchAgreement {
+class MatchAgreement final : public MatchMeasure {
  public:
-  /// After each message of each agent.
-  void afterThought(const Thought& thought);
-  /// After each cycle of the simulation: its thoughts are complete.
-  void afterCycle(const sim::Simulation& simulation);
+  void afterCycle(const sim::Simulation& simulation) override;
+  void afterThought(const Thought& thought) override;
 
   struct Count {
     long cycles = 0;  // one per team and cycle
@@ -46,8 +45,8 @@ class MatchAgreement {
   const std::map<std::string, Count>& teams() const { return counts_; }
   Count all() const;
 
-  nlohmann::ordered_json toJson() const;
-  std::string toText() const;
+  nlohmann::ordered_json toJson() const override;
+  std::string toText() const override;
 
  private:
   std::map<std::string, AgreedRoles> thoughts_;  // of this cycle

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/lab/match/match.h"
+#include "nonet/lab/reports/match_measure.h"
 #include "nonet/motion/request.h"
 #include "nonet/sim/simulation.h"
 
@@ -44,18 +45,16 @@ struct KickShares {
 };
 KickShares kickShares(const std::vector<MatchKick>& kicks);
 
-class MatchKicks {
+class MatchKicks final : public MatchMeasure {
  public:
-  /// After each message of each agent.
-  void afterThought(const Thought& thought);
-  /// After each cycle of the simulation.
-  void afterCycle(const sim::Simulation& simulation);
+  void afterCycle(const sim::Simulation& simulation) override;
+  void afterThought(const Thought& thought) override;
 
   /// Those that are over.
   const std::vector<MatchKick>& kicks() const { return kicks_; }
 
-  nlohmann::ordered_json toJson() const;
-  std::string toText() const;
+  nlohmann::ordered_json toJson() const override;
+  std::string toText() const override;
 
  private:
   /// A kick whose ball is still on its way.

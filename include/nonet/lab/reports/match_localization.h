@@ -15,16 +15,15 @@
 
 #include "nonet/lab/match/match.h"
 #include "nonet/lab/reports/localization_report.h"
+#include "nonet/lab/reports/match_measure.h"
 #include "nonet/sim/simulation.h"
 
 namespace nonet::lab {
 
-class MatchLocalization {
+class MatchLocalization final : public MatchMeasure {
  public:
-  /// After each cycle of the simulation.
-  void afterCycle(const sim::Simulation& simulation);
-  /// After each message of each agent.
-  void afterThought(const Thought& thought);
+  void afterCycle(const sim::Simulation& simulation) override;
+  void afterThought(const Thought& thought) override;
 
   /// What a robot was doing, by the truth: it counts as fallen from a tilt of 60 degrees until it has stood
   /// (tilt below 25 degrees) for 0.5 s, as walking while it got along faster than 0.05 m/s for half a second.
@@ -51,8 +50,8 @@ class MatchLocalization {
   };
   const Opponents& opponents() const { return opponents_; }
 
-  nlohmann::ordered_json toJson() const;
-  std::string toText() const;
+  nlohmann::ordered_json toJson() const override;
+  std::string toText() const override;
 
  private:
   struct RobotTruth {
