@@ -45,7 +45,7 @@ isNumber() { [[ $1 =~ ^[0-9]+$ ]]; }
 isReal() { [[ $1 =~ ^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)$ ]]; }
 
 # HOST [PORT] and the league's options; the rest, after --, goes to `nonet play`.
-host=127.0.0.1 port=3100 team=Nonet count=9
+host=127.0.0.1 port=3100 team=Nonet count=9 countGiven=
 options=()
 parseArguments() {
   if [ $# -gt 0 ] && [[ $1 != -* ]]; then host=$1; shift; fi
@@ -57,7 +57,7 @@ parseArguments() {
         case $1 in
           -p) port=$2 ;;
           -t) team=$2 ;;
-          -n) count=$2 ;;
+          -n) count=$2 countGiven=1 ;;
           -h | --host) host=$2 ;;
           -mh) ;;
         esac
@@ -69,8 +69,10 @@ parseArguments() {
   done
   options=("$@")
   checkAddress
-  [[ $count =~ ^[0-9]+$ ]] && [ "$count" -ge 1 ] && [ "$count" -le 11 ] || fail "-n must be 1 to 11, not '$count'"
+  [[ $count =~ ^([1-9]|10|11)$ ]] || fail "-n must be 1 to 11, not '$count'"
 }
+# For scripts that start one agent, whatever the count.
+oneAgent() { [ -z "$countGiven" ] || fail "-n is for scripts/start.sh: this one starts one agent"; }
 checkAddress() {
   [ -n "$host" ] || fail "HOST is empty"
   isNumber "$port" && [ "$port" -ge 1 ] && [ "$port" -le 65535 ] || fail "the port must be 1 to 65535, not '$port'"

@@ -11,8 +11,8 @@ set -euo pipefail
 parseArguments "$@"
 findBinary
 
-# Robot types by uniform number. Every prefix of this list satisfies the server's rules: at most 7 of one type, any
-# two types together at most 9, at least 3 different types.
+# Robot types by uniform number, as agent::usualRobotType() has them. Every team of the first so many satisfies the
+# server's rules: at most 7 of one type, any two types together at most 9, 3 different types in a team of eleven.
 types=(0 2 2 2 2 2 2 2 4 1 3)
 for ((unum = 1; unum <= count; unum++)); do
   [ "$unum" -eq 1 ] || sleep "${NONET_STAGGER:-0.3}"

@@ -6,6 +6,7 @@
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 parseArguments "$@"
+oneAgent
 findBinary
 # Who leaves its area gives away a goal (server facts 4.11).
 launch "${team}_goalie" --unum 1 --type 0 --set team.goalie.stayInArea=true "${options[@]}"

@@ -6,6 +6,7 @@
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 parseArguments "$@"
+oneAgent
 findBinary
 launch "${team}_kicker" --unum 2 --type 4 "${options[@]}"
 awaitAgents

@@ -37,6 +37,7 @@ void Session::receive(std::string_view message) {
 std::string_view Session::answer() {
   if (pending_ == 0) return {};
   pending_ = 0;
+  if (counts_.answers == 0) introducedAt_ = counts_.messages;
   ++counts_.answers;
   return write();
 }
@@ -63,7 +64,9 @@ void Session::countGap() {
 void Session::watchAcceptance() {
   if (stage_ == Stage::Connecting) stage_ = Stage::Introducing;
   if (percept_.game.unum || percept_.game.side) stage_ = Stage::Playing;
-  if (stage_ == Stage::Introducing && counts_.messages > kRefusalPatience) stage_ = Stage::Refused;
+  const bool introduced = counts_.answers > 0;
+  if (stage_ == Stage::Introducing && introduced && counts_.messages - introducedAt_ > kRefusalPatience)
+    stage_ = Stage::Refused;
 }
 
 std::string_view Session::write() {

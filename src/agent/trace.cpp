@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "nonet/world/ball_law.h"
+#include "nonet/world/game_tracker.h"
 
 namespace nonet::agent {
 namespace {
@@ -171,7 +172,8 @@ std::string requestText(const ordered_json& request) {
   if (request.contains("skill"))
     text += fmt::format(" {}, {}", std::string(request["skill"]), std::string(request["side"]));
   if (request.contains("ball")) text += fmt::format(" the ball at {}", at(request["ball"]));
-  if (request.contains("target")) text += fmt::format(" to {} m", at(request["target"]));
+  if (request.contains("target"))
+    text += fmt::format("{} {} m", text.ends_with(" to") ? "" : " to", at(request["target"]));
   if (request.contains("velocity")) text += fmt::format(" {} m/s", at(request["velocity"]));
   return text;
 }
@@ -181,7 +183,7 @@ std::string requestText(const ordered_json& request) {
 ordered_json traceOf(const Agent& agent) {
   const world::WorldState& world = agent.world();
   const world::SelfState& self = world.self;
-  const bool ownGoalLeft = (world.game.side == protocol::TeamSide::Right) == world.game.sidesSwapped;
+  const bool ownGoalLeft = !world::playsFromRight(world.game);
   const Matrix3& covariance = self.covariance;
   ordered_json json = {
       {"time", rounded(world.time)},

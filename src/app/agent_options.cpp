@@ -23,9 +23,13 @@ void addServerOptions(CLI::App& command, ServerChoice& server) {
   CLI::Option* tcp =
       command.add_flag("--tcp", server.overTcp, "Measure on a running, empty server instead of in process");
   command.add_option("--host", server.address.host, "Its host")->capture_default_str()->needs(tcp);
-  command.add_option("--port", server.address.port, "Its agent port")->capture_default_str()->needs(tcp);
+  command.add_option("--port", server.address.port, "Its agent port")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 65535))
+      ->needs(tcp);
   command.add_option("--monitor-port", server.address.monitorPort, "Its monitor port")
       ->capture_default_str()
+      ->check(CLI::Range(1, 65535))
       ->needs(tcp);
 }
 

@@ -1,11 +1,13 @@
 // nonet ball-report: the ball at the feet, and the run.
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/agent/data_folder.h"
 #include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
@@ -29,12 +31,17 @@ struct BallReportArguments {
 int run(const BallReportArguments& arguments) {
   spdlog::set_level(spdlog::level::err);  // who enters the field is no news here
   lab::BallReportSettings settings = arguments.settings;
+  if (!arguments.svg.empty() && settings.skill != "slalom" && settings.skill != "all")
+    throw std::runtime_error("--svg draws the slalom only: leave it out, or choose --skill slalom or all");
   settings.seed = arguments.choice.seed;
   const std::string data = dataFolder(arguments.data);
   settings.agent = agent::makeAgentSettings(arguments.choice, data);
   agent::AgentChoice opponent;
   opponent.robotType = arguments.choice.robotType;
-  const std::string opponentData = arguments.opponentData.empty() ? data : dataFolder(arguments.opponentData);
+  const std::string opponentData =
+      arguments.opponentData.empty()
+          ? data
+          : agent::dataFolder(arguments.opponentData, "--opponent-data", executablePath(), "");
   settings.opponent = agent::makeAgentSettings(opponent, opponentData);
   agent::AgentChoice goalie;
   goalie.robotType = 0;
@@ -54,9 +61,9 @@ int run(const BallReportArguments& arguments) {
 }  // namespace
 
 void addBallReportCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand(
-      "ball-report",
-      "Measure seeded ball skills: approach, dribble, slalom, drive, duel, attack, receive, run, stop");
+  CLI::App* command = app.add_subcommand("ball-report",
+                                         "Measure seeded ball skills: approach, dribble, slalom, drive, "
+                                         "duel, attack, receive, run with its stop");
   const auto arguments = std::make_shared<BallReportArguments>();
   lab::BallReportSettings& settings = arguments->settings;
   addAgentOptions(*command, arguments->choice, arguments->data);
@@ -68,7 +75,9 @@ void addBallReportCommand(CLI::App& app, int& exitCode) {
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
   command->add_flag("--quick", settings.quickSolver, "Quick stepper instead of the exact one");
-  command->add_option("--svg", arguments->svg, "Draw the balls' ways in the slalom: SVG + slalom.svg");
+  command->add_option(
+      "--svg", arguments->svg,
+      "Draw the balls' ways in the slalom to a file with this beginning: ways_ gives ways_slalom.svg");
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(
       "Examples:\n  nonet ball-report --type 4 --json\n  nonet ball-report --skill slalom --trials 20 --svg "

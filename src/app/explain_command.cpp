@@ -53,8 +53,10 @@ int runExplain(const ExplainArguments& arguments) {
   double nearest = std::numeric_limits<double>::infinity();
   lab::ReplaySettings settings;
   settings.dataFolder = dataFolder(arguments.data);
-  settings.unum = arguments.unum;
-  settings.team = arguments.team;
+  if (!protocol::LogReader(log).header()) {  // our own logs say who recorded them
+    settings.unum = arguments.unum;
+    settings.team = arguments.team;
+  }
   settings.observer = [&](const agent::Session& session) {
     const double distance = std::abs(session.agent().world().game.time - arguments.at);
     // The game's clock may stand still: the last of its cycles is what the robot came to.

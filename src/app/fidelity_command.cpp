@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "nonet/app/commands.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/sim/fidelity/fidelity.h"
 
 namespace nonet::app {
@@ -52,12 +52,6 @@ nlohmann::ordered_json toJson(const sim::FidelityResult& result) {
           {"max_joint_error_deg", result.worst.joints}};
 }
 
-void writeFile(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
-}
-
 int runFidelity(FidelityArguments& arguments) {
   arguments.settings.solver =
       arguments.solver == "quick" ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
@@ -77,10 +71,10 @@ int runFidelity(FidelityArguments& arguments) {
         result.knownHistory ? "" : "  (start taken from the recording)");
     all.push_back(toJson(result));
     if (!arguments.svgFolder.empty()) {
-      writeFile(arguments.svgFolder / (result.scenario + ".svg"), sim::drawFidelity(result));
+      lab::writeAtomically(arguments.svgFolder / (result.scenario + ".svg"), sim::drawFidelity(result));
     }
   }
-  if (!arguments.jsonFile.empty()) writeFile(arguments.jsonFile, all.dump(2) + "\n");
+  if (!arguments.jsonFile.empty()) lab::writeAtomically(arguments.jsonFile, all.dump(2) + "\n");
   return 0;
 }
 

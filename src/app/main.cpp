@@ -1,6 +1,11 @@
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,6 +27,30 @@ void checkCommand(const CLI::App& app, const std::string& given) {
   }
   throw std::runtime_error("there is no command '" + given + "': did you mean '" +
                            nonet::config::nearestOf(names, given) + "'? nonet --help lists all");
+}
+
+/// Ranges let NaN through, and a seed of -1 would become another one.
+std::string checkNumber(const std::string& text) {
+  const std::string_view word = text;
+  const std::size_t sign = word.starts_with('-') || word.starts_with('+') ? 1 : 0;
+  const char first = word.size() > sign ? static_cast<char>(std::tolower(word[sign])) : '0';
+  if (first == 'n' || first == 'i') return fmt::format("'{}' is no finite number", text);
+  return "";
+}
+std::string checkCount(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return "";
+  return fmt::format("'{}' is no whole number from 0 to 2^64 - 1", text);
+}
+
+void checkNumbers(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type.starts_with("FLOAT")) option->check(CLI::Validator(checkNumber, ""));
+    if (type.starts_with("UINT")) option->check(CLI::Validator(checkCount, ""));
+  }
+  for (CLI::App* inner : command.get_subcommands(nullptr)) checkNumbers(*inner);
 }
 
 int run(int argc, char** argv) {
@@ -52,7 +81,12 @@ int run(int argc, char** argv) {
   nonet::app::addSaveReportCommand(app, exitCode);
   nonet::app::addParamsCommand(app, exitCode);
   nonet::app::addSoakCommand(app, exitCode);
+  checkNumbers(app);
   if (argc > 1 && argv[1][0] != '-') checkCommand(app, argv[1]);
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  if (first.starts_with('-') && app.get_option_no_throw(std::string(first)) == nullptr)
+    throw std::runtime_error(
+        fmt::format("there is no option '{}' before a command; nonet --help lists the commands", first));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -67,7 +101,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "nonet: {}\n", error.what());
+    std::fputs(fmt::format("nonet: {}\n", error.what()).c_str(), stderr);  // throws nothing on a full disk
     return 1;
   }
 }

@@ -102,7 +102,7 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console, con
 void assign(const std::vector<std::string>& assignments, lab::MatchSettings& match) {
   for (const std::string& assignment : assignments) {
     if (assignment.substr(0, assignment.find('=')).find('.') == std::string::npos) {
-      match.settings.setAssignment(assignment);
+      lab::setServerSetting(match.settings, assignment);
       continue;
     }
     match.left.assignments.push_back(assignment);
@@ -127,7 +127,7 @@ void checkBefore(MatchArguments& arguments) {
   }
   const std::filesystem::path folder = std::filesystem::path(arguments.json).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);
-  if (!std::ofstream(arguments.json, std::ios::app))
+  if (!std::ofstream(arguments.json))  // and no result of an earlier match remains
     throw std::runtime_error(
         fmt::format("--json {}: cannot be written: give the name of a file", arguments.json));
 }
@@ -155,7 +155,9 @@ int runMatch(MatchArguments& arguments) {
   file << json.dump(2) << "\n";
   if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
   fmt::print("result in {}\n", arguments.json);
-  return result.finished && result.violations == 0 ? 0 : 1;
+  const bool allThere = std::all_of(result.players.begin(), result.players.end(),
+                                    [](const lab::PlayerRecord& player) { return player.connected; });
+  return result.finished && result.violations == 0 && allThere ? 0 : 1;
 }
 
 }  // namespace
@@ -169,7 +171,8 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
   command->add_option("--kick-off-wait", match.kickOffWait, "Simulated seconds before each half")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e4));
   command->add_option("--seed", match.seed, "Seed of the server and of all agents")->capture_default_str();
   CLI::Option* realTime =
       command->add_flag("--realtime", settings.realTime, "Play by the clock instead of in lock-step");
@@ -210,12 +213,13 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--answer-timeout", settings.answerTimeout,
                    "Lock-step: seconds after which a silent agent is no longer waited for")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1e6));
   command->add_option("--settings", arguments->settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--set", arguments->assignments,
-                   "One value, name=value: a setting of the server (RuleHalfTime=60), or with a dot a "
+                   "One value, name=value: a setting of the server (SayLossShare=0.2), or with a dot a "
                    "parameter of all "
                    "agents (team.ball.kick=false)")
       ->allow_extra_args(false);
@@ -254,13 +258,14 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->add_option("--threads", arguments->threads,
                    "With --in-process: threads for agents and physics, 0: one per core")
       ->capture_default_str()
-      ->check(CLI::Range(0, 256));
+      ->check(CLI::Range(0, 256))
+      ->needs(inProcess);
   command->footer(
       "Examples:\n"
       "  nonet match --minutes 2 --seed 7 --logs logs          over TCP, a log for nonet replay of each "
       "agent\n"
       "  nonet match --in-process --minutes 2 --monitor-log logs/match.mon --trace logs/traces\n"
-      "  nonet match --alone --set RuleHalfTime=60 --set team.ball.kick=false\n"
+      "  nonet match --alone --set QuickSolver=true --set team.ball.kick=false\n"
       "In lock-step the same seed gives the same match, over TCP and in one process, to the last byte of the "
       "logs.\n"
       "Exit codes: 0 played to the end, 1 not, or --check found something.");

@@ -20,8 +20,10 @@
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/stop_signal.h"
+#include "nonet/app/version.h"
 #include "nonet/config/parameters.h"
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/match/series_settings.h"
 #include "nonet/lab/optimize/evaluator_mpi.h"
 #include "nonet/lab/optimize/optimization_run.h"
 #include "nonet/lab/optimize/optimize_report.h"
@@ -125,27 +127,43 @@ int acceptedType(const OptimizeArguments& arguments, const std::vector<lab::Prov
   return learned;
 }
 
+/// A learned file is whole: what it leaves out has the code's value. Any other is overlaid on the type's
+/// file.
+agent::AgentParameters acceptedParameters(OptimizeArguments& arguments, bool learned) {
+  if (!learned) {
+    std::vector<std::string> files = arguments.parameterFiles;
+    files.push_back(arguments.accept);
+    lab::setStart(arguments.settings, dataFolder(), files);
+    return arguments.settings.startParameters(dataFolder());
+  }
+  if (!arguments.parameterFiles.empty())
+    throw std::runtime_error(
+        fmt::format("--params: {} was learned and holds all values: leave the option out", arguments.accept));
+  agent::AgentParameters parameters = lab::defaultParameters(dataFolder());
+  config::overlayFile(parameters, arguments.accept);
+  return parameters;
+}
+
 // Measures a set on fresh seeds and writes it with that fitness as its provenance.
 int acceptFile(OptimizeArguments& arguments) {
   if (arguments.out.empty()) throw std::runtime_error("--out FILE says where the accepted set goes");
   lab::OptimizationSettings& settings = arguments.settings;
   const lab::Task& task = lab::findTask(arguments.task);
-  agent::AgentParameters parameters = lab::defaultParameters(dataFolder());
-  config::overlayFile(parameters, arguments.accept);
-  task.prepare(parameters);
   std::vector<lab::Provenance> origins = lab::readProvenance(arguments.accept);
   lab::Provenance origin;
   for (const lab::Provenance& known : origins) {
     if (known.task == arguments.task) origin = known;
   }
   settings.robotType = acceptedType(arguments, origins);
+  agent::AgentParameters parameters = acceptedParameters(arguments, !origins.empty());
+  task.prepare(parameters);
   origin.task = arguments.task;
   origin.robotType = settings.robotType;
   origin.quickSolver = settings.quickSolver;
   origin.seeds = {};
   origin.seeds.add(lab::SeedDraw{settings.seed, 0, settings.trials});
   origin.date = today();
-  origin.version = NONET_VERSION;
+  origin.version = versionText();
   Console console;
   const lab::Measurement measurement =
       lab::measure(task, parameters, origin.seeds.all(), settings.taskSettings(dataFolder()),
@@ -247,7 +265,13 @@ void checkAgainst(const OptimizeArguments& arguments, const lab::OptimizationSet
 
 lab::OptimizationRun openRun(OptimizeArguments& arguments, bool generationsGiven) {
   if (arguments.resume) {
-    checkAgainst(arguments, lab::OptimizationRun::readSettings(arguments.out));
+    const lab::OptimizationSettings begun = lab::OptimizationRun::readSettings(arguments.out);
+    checkAgainst(arguments, begun);
+    if (!begun.fingerprint.empty() && begun.fingerprint != lab::fingerprintOf({}, dataFolder()))
+      spdlog::warn(
+          "the program, params/ or skills/ changed since the run in {} began ({}): its fitness may mean "
+          "something else now",
+          arguments.out, begun.version);
     return lab::OptimizationRun::resume(
         arguments.out, dataFolder(),
         generationsGiven ? std::optional<int>(arguments.settings.generations) : std::nullopt);
@@ -257,7 +281,8 @@ lab::OptimizationRun openRun(OptimizeArguments& arguments, bool generationsGiven
   lab::findTask(settings.task);
   settings.restarts = lab::restartSchemeOf(arguments.restarts);
   settings.date = today();
-  settings.version = NONET_VERSION;
+  settings.version = versionText();
+  settings.fingerprint = lab::fingerprintOf({}, dataFolder());
   lab::setStart(settings, dataFolder(), arguments.parameterFiles);
   return lab::OptimizationRun::create(arguments.out, settings, dataFolder());
 }
@@ -311,7 +336,7 @@ int runOptimize(OptimizeArguments& arguments, bool generationsGiven) {
   if (!arguments.repeat.empty()) return repeatFile(arguments);
   if (arguments.task.empty() && !arguments.resume) throw std::runtime_error("name a task; --list shows them");
   if (!arguments.accept.empty()) return acceptFile(arguments);
-  if (arguments.compareSolvers > 0) return compareSolvers(arguments);
+  if (arguments.compareSolvers > 1) return compareSolvers(arguments);
   if (arguments.out.empty()) throw std::runtime_error("--out FOLDER says where the run is kept");
   return arguments.mpi ? runMpi(arguments, generationsGiven) : runThreads(arguments, generationsGiven);
 }
@@ -348,7 +373,8 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("optimize", "Learns parameters with CMA-ES");
   auto arguments = std::make_shared<OptimizeArguments>();
   command->add_option("task", arguments->task, "What to learn; --list shows the tasks");
-  command->add_option("--out", arguments->out, "Folder of the run; with --accept the file to write");
+  CLI::Option* out =
+      command->add_option("--out", arguments->out, "Folder of the run; with --accept the file to write");
   CLI::Option* generations =
       command->add_option("--generations", arguments->settings.generations, "How many; extends with --resume")
           ->capture_default_str();
@@ -357,16 +383,20 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
   command->add_option("--threads", arguments->threads, "Evaluations at once; 0: one per core")
       ->check(CLI::Range(0, 256));
   command->add_flag("--mpi", arguments->mpi, "Evaluate on all ranks of this MPI job (under mpirun or srun)");
-  command->add_flag("--resume", arguments->resume, "Continue the run in --out after a kill at any point");
+  CLI::Option* resume =
+      command->add_flag("--resume", arguments->resume, "Continue the run in --out after a kill at any point");
   command->add_flag("--list", arguments->list, "Show tasks and parameters");
   command->add_option("--repeat", arguments->repeat, "Measure a learned file with the seeds it names")
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingFile)
+      ->excludes(resume, out);
   command
       ->add_option("--accept", arguments->accept,
                    "Measure a file on TRIALS fresh seeds of the task, write it to --out with that fitness")
       ->check(CLI::ExistingFile);
-  command->add_option("--compare-solvers", arguments->compareSolvers,
-                      "Rank correlation of quick and exact physics over so many random sets");
+  command
+      ->add_option("--compare-solvers", arguments->compareSolvers,
+                   "Rank correlation of quick and exact physics over so many random sets")
+      ->check(CLI::Range(2, 100000));
   CLI::App* report = command->add_subcommand("report", "Writes FOLDER/report.html: curves and paths");
   report->add_option("folder", arguments->reportFolder, "Folder of a run")->required();
   command->footer(

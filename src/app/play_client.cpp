@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +15,9 @@
 
 #include <asio.hpp>
 #include <fmt/format.h>
+#include <netinet/tcp.h>
 #include <nlohmann/json.hpp>
+#include <sys/socket.h>
 
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/alarm.h"
@@ -52,6 +55,18 @@ constexpr double kPauseAfterRefusal =
     2.0;  // s; the server may still hold the robot of a connection that was cut
 constexpr std::size_t kReadSize = 65536;  // bytes
 
+/// An agent sends only in answer, so a server that vanished without a word would never be missed. Its kernel
+/// is asked now and then; a server that only pauses has one that answers.
+void noticeSilentEnd(int socket) {
+  const auto set = [socket](int level, int option, int value) {
+    ::setsockopt(socket, level, option, &value, sizeof value);
+  };
+  set(SOL_SOCKET, SO_KEEPALIVE, 1);
+  set(IPPROTO_TCP, TCP_KEEPIDLE, 5);   // s without a message until the first question
+  set(IPPROTO_TCP, TCP_KEEPINTVL, 2);  // s between two
+  set(IPPROTO_TCP, TCP_KEEPCNT, 3);    // without an answer, then the connection is gone
+}
+
 class PlayClient {
  public:
   explicit PlayClient(const PlaySettings& settings)
@@ -69,8 +84,7 @@ class PlayClient {
     signals_.async_wait([this](std::error_code error, int signal) {
       if (!error) finish(PlayExit::Stopped, fmt::format("stopped by signal {}", signal));
     });
-    started_ = Clock::now();
-    asio::post(io_, [this] { awaitTurn(); });
+    asio::post(io_, [this] { begin(); });
     io_.run();
     if (log_) {
       log_->close();
@@ -78,6 +92,11 @@ class PlayClient {
     }
     if (link_) add(link_->session.counts());
     report();
+    // Last, since who watches many agents quotes the last line of each.
+    if (exit_ == PlayExit::Stopped)
+      say("{}", ending_);
+    else
+      complain(ending_);
     return exit_;
   }
 
@@ -104,15 +123,29 @@ class PlayClient {
 
   // -- connecting
 
+  /// Towards a message from the server, for which it waits no longer than `wait`. Waiting for one's first
+  /// turn does not count.
+  void begin() {
+    searches_ = false;
+    queue();
+  }
+
+  void queue() {
+    queuedSince_ = Clock::now();
+    awaitTurn();
+  }
+
   void awaitTurn() {
     const double patience = kTurnPatience + kTurnPatiencePerUnum * settings_.session.agent.unum;
-    if (settings_.atOnce || turn_.take() || waited() > patience) {
-      started_ = Clock::now();  // waiting for the others does not count as waiting for the server
+    const double queued = Seconds(Clock::now() - queuedSince_).count();
+    if (!settings_.atOnce && !turn_.take() && queued <= patience)
+      return pause_.set(kTurnInterval, [this] { awaitTurn(); });
+    if (!searches_) {
+      searches_ = true;
+      started_ = Clock::now();
       deadline_.set(settings_.wait, [this] { giveUp(); });
-      connect();
-    } else {
-      pause_.set(kTurnInterval, [this] { awaitTurn(); });
     }
+    connect();
   }
 
   void connect() {
@@ -140,7 +173,9 @@ class PlayClient {
     const double pause = std::clamp(settings_.wait - waited(), 0.0, nextPause_);
     say("waiting for a server at {}:{} ({}), next try in {:.1f} s", settings_.host, settings_.port, trouble_,
         pause);
-    pause_.set(pause, [this] { connect(); });
+    // Who has the turn and no server leaves it to the others: else all would lose patience at once.
+    turn_.release();
+    pause_.set(pause, [this] { queue(); });
     nextPause_ = std::min(nextPause_ * 1.5, kLongestPause);
   }
 
@@ -157,6 +192,8 @@ class PlayClient {
   void greet(const Link& link) {
     link->socket.set_option(tcp::no_delay(true));
     link->socket.non_blocking(true);
+    noticeSilentEnd(link->socket.native_handle());
+    if (newLife_) nextLife();
     link->greeted = Clock::now();
     send(link, link->session.begin());
     read(link);
@@ -220,7 +257,7 @@ class PlayClient {
     if (connection.session.counts().messages == 0) {
       connection.silence.cancel();
       deadline_.cancel();
-      pause_.set(kTurnAfterInit, [this] { turn_.release(); });
+      turnEnd_.set(kTurnAfterInit, [this] { turn_.release(); });
     }
     if (log_) {
       log_->received(message);
@@ -294,9 +331,8 @@ class PlayClient {
     const bool inTime = lastInPlay_ && Seconds(Clock::now() - *lastInPlay_).count() < settings_.wait;
     if (!settings_.reconnect || !inTime) return finish(exit, message);
     say("{}, coming back", message);
-    ++lives_;
     trouble_ = message;
-    if (link_->session.counts().messages > 0) nextLog();
+    newLife_ = newLife_ || link_->session.counts().messages > 0;
     add(link_->session.counts());
     std::error_code ignored;
     link_->silence.cancel();
@@ -306,10 +342,7 @@ class PlayClient {
     reconnectAfter_ = kSilenceBeforeReconnect;
     const double pause = exit == PlayExit::Refused ? kPauseAfterRefusal : nextPause_;
     nextPause_ = std::min(nextPause_ * 1.5, kLongestPause);
-    pause_.set(pause, [this] {
-      started_ = Clock::now();
-      awaitTurn();
-    });
+    pause_.set(pause, [this] { begin(); });
   }
 
   /// What was counted on the connections before.
@@ -329,8 +362,11 @@ class PlayClient {
       log_->comment(agent::startComment(*settings_.session.agent.startPose));
   }
 
-  /// Each connection is another life of the agent, so it has a log of its own: 3.zst, 3.2.zst, 3.3.zst.
-  void nextLog() {
+  /// Each connection in which it hears anything is another life of the agent, so it has a log of its
+  /// own: 3.zst, 3.2.zst, 3.3.zst.
+  void nextLife() {
+    newLife_ = false;
+    ++lives_;
     if (!log_) return;
     log_->close();
     watchLog();
@@ -342,7 +378,7 @@ class PlayClient {
       toldOfLog_ = false;
     } catch (const protocol::LogError& error) {
       log_.reset();
-      fmt::print(stderr, "nonet play: {}; it goes on without a log\n", error.what());
+      complain(fmt::format("{}; it goes on without a log", error.what()));
     }
   }
 
@@ -350,7 +386,7 @@ class PlayClient {
   void watchLog() {
     if (!log_->failed() || toldOfLog_) return;
     toldOfLog_ = true;
-    fmt::print(stderr, "nonet play: {}\n", log_->error());
+    complain(log_->error());
   }
 
   // -- ending
@@ -359,11 +395,7 @@ class PlayClient {
     if (finished_) return;
     finished_ = true;
     exit_ = exit;
-    if (exit == PlayExit::Stopped) {
-      say("{}", message);
-    } else {
-      fmt::print(stderr, "nonet play: {}\n", message);
-    }
+    ending_ = message;
     io_.stop();
   }
 
@@ -383,18 +415,25 @@ class PlayClient {
                                  {"unknown", counts.unknownTokens},
                                  {"connections", lives_}};
     report_ << json.dump() << "\n";
-    if (!report_.flush()) fmt::print(stderr, "nonet play: {}\n", cannotWriteReport());
+    if (!report_.flush()) complain(cannotWriteReport());
   }
 
   std::string cannotWriteReport() const {
     return fmt::format("--report {}: cannot be written ({})", settings_.report, std::strerror(errno));
   }
 
+  // The disk that the output goes to may be full: that must not end a match.
+  static void write(std::FILE* stream, const std::string& line) {
+    std::fputs((line + "\n").c_str(), stream);
+    std::fflush(stream);
+  }
+
+  static void complain(const std::string& message) { write(stderr, "nonet play: " + message); }
+
   template <class... Arguments>
   void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
     if (settings_.quiet) return;
-    fmt::print("{}\n", fmt::format(format, std::forward<Arguments>(arguments)...));
-    std::fflush(stdout);
+    write(stdout, fmt::format(format, std::forward<Arguments>(arguments)...));
   }
 
   PlaySettings settings_;
@@ -402,7 +441,8 @@ class PlayClient {
   asio::io_context io_{1};
   asio::signal_set signals_;
   tcp::resolver resolver_{io_};
-  Alarm pause_{io_};     // until the next look for a turn or for a server; later until the turn is given back
+  Alarm pause_{io_};     // until the next look for a turn or for a server
+  Alarm turnEnd_{io_};   // until the turn is given back at the latest
   Alarm deadline_{io_};  // for the first message
   std::unique_ptr<protocol::LogWriter> log_;
   std::ofstream report_;
@@ -410,15 +450,19 @@ class PlayClient {
   std::unique_ptr<RobovizPainter> painter_;
   Link link_;
   agent::SessionCounts counts_;
-  Clock::time_point started_;
+  Clock::time_point started_;      // to look for a server
+  Clock::time_point queuedSince_;  // for a turn
+  bool searches_ = false;          // has had its first turn
   std::optional<Clock::time_point> lastInPlay_;
   int lives_ = 1;
+  bool newLife_ = false;               // with the next connection
   std::string trouble_ = "no answer";  // why the last attempt to connect failed
   double nextPause_ = kFirstPause;
   double reconnectAfter_ = kSilenceBeforeReconnect;
   bool toldOfLog_ = false;
   bool finished_ = false;
   PlayExit exit_ = PlayExit::Stopped;
+  std::string ending_;  // why it ended
 };
 
 }  // namespace

@@ -1,3 +1,6 @@
+#include <cmath>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 #include "nonet/agent/agent_setup.h"
@@ -35,6 +38,8 @@ void chooseChallenge(PlayArguments& arguments) {
 int runPlay(PlayArguments& arguments) {
   checkTeamName(arguments.choice.team);
   if (!arguments.start.empty()) {
+    if (!std::isfinite(arguments.start.at(0)) || !std::isfinite(arguments.start.at(1)))
+      throw std::runtime_error("--start: expected two finite numbers, X,Y in metres");
     arguments.choice.startPose = Pose2(arguments.start.at(0), arguments.start.at(1), 0.0);
   }
   if (!arguments.challenge.empty()) {
@@ -100,11 +105,13 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--start", arguments->start, "Beam to X,Y instead of the kick-off place")
       ->delimiter(',')
       ->expected(2);
-  command->add_option("--challenge", arguments->challenge,
-                      "Technical challenge: run, kick, goalie, passing or keepaway");
+  CLI::Option* challenge = command->add_option("--challenge", arguments->challenge,
+                                               "Technical challenge: run, kick, goalie, passing or keepaway");
   CLI::Option* skill =
-      command->add_option("--skill", choice.skill,
-                          "Show this skill instead of playing, again and again, 2 s of standing before each");
+      command
+          ->add_option("--skill", choice.skill,
+                       "Show this skill instead of playing, again and again, 2 s of standing before each")
+          ->excludes(challenge);
   command->add_flag("--mirror", choice.mirrorSkill, "With --skill: left and right exchanged")->needs(skill);
   command->add_option("--report", play.report, "Write what was counted as JSON at the end");
   command->add_flag("--at-once", play.atOnce,

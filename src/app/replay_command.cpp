@@ -11,6 +11,7 @@
 #include "nonet/app/data_folder.h"
 #include "nonet/lab/reports/localization_report.h"
 #include "nonet/lab/reports/replay.h"
+#include "nonet/protocol/log_file.h"
 
 namespace nonet::app {
 namespace {
@@ -105,7 +106,7 @@ int runReplay(ReplayArguments& arguments) {
   for (const std::string& file : arguments.files) {
     try {
       exitCode = std::max(exitCode, replayOne(file, arguments, all));
-    } catch (const std::exception& error) {
+    } catch (const protocol::LogError& error) {
       fmt::print(stderr, "nonet replay: {}\n", error.what());
       exitCode = std::max(exitCode, kUnreadable);
     }
@@ -135,6 +136,7 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
       command->add_flag("--trace", arguments->trace,
                         "What the agent believed and wanted, one JSON object per cycle; the report goes to "
                         "the standard error");
+  trace->excludes(localization);
   command->add_flag("--csv", arguments->csv, "With --trace: the main values as a table")->needs(trace);
   command->add_option("--from", arguments->from, "With --trace: from this time of the game on, s")
       ->needs(trace);

@@ -6,6 +6,7 @@
 
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/series_games.h"
 #include "nonet/app/series_run.h"
 #include "nonet/app/team_name.h"
 
@@ -23,7 +24,6 @@ struct SeriesArguments {
   lab::SeriesSettings settings;
   SideArguments a;
   SideArguments b;
-  std::string where;
   std::string data;
   std::string out;
   std::string sequential;
@@ -47,16 +47,6 @@ lab::SideSettings sideOf(const SideArguments& arguments, const std::string& data
   return side;
 }
 
-/// In this process if that can be.
-std::string placeFor(const SeriesArguments& arguments) {
-  const bool ours = arguments.settings.a.ours() && arguments.settings.b.ours();
-  if (arguments.where.empty()) return ours ? "process" : "tcp";
-  if (arguments.where == "process" && !ours)
-    throw std::runtime_error(
-        "in one process only this program can play: --where tcp, or leave the option out");
-  return arguments.where;
-}
-
 /// Names of parameters have a dot, those of the server's settings have none. What a side sets itself counts.
 void assign(SeriesArguments& arguments) {
   std::vector<std::string> ofBoth;
@@ -78,7 +68,9 @@ int runSeries(SeriesArguments& arguments) {
     throw std::runtime_error("the teams need different names (--a-name, --b-name)");
   for (const std::string& name : {settings.a.name, settings.b.name}) checkTeamName(name);
   if (!arguments.sequential.empty()) settings.sequential = lab::parseSequentialBounds(arguments.sequential);
-  settings.place = placeFor(arguments);
+  settings.place = lab::placeFor(settings);
+  if (!settings.serverCommand.empty() && !serverPlace(settings.place))
+    throw std::runtime_error("--server-command needs --where HOST:PORT:MONITORPORT: what it is to start");
   settings.commandLine = commandLine();
   if (arguments.out.empty())
     arguments.out = fmt::format("logs/series-{:%Y%m%d-%H%M%S}", fmt::gmtime(std::time(nullptr)));
@@ -122,6 +114,7 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
       "series", "Many paired games between two sides, until it is clear which is stronger");
   auto arguments = std::make_shared<SeriesArguments>();
   lab::SeriesSettings& settings = arguments->settings;
+  settings.place.clear();
   arguments->a.side.name = "A";
   arguments->b.side.name = "B";
   command
@@ -133,7 +126,7 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
   addSideOptions(*command, "a", "left", arguments->a);
   addSideOptions(*command, "b", "right", arguments->b);
   command->add_option(
-      "--where", arguments->where,
+      "--where", settings.place,
       "process: all in this process (the default if it can be); tcp: the embedded server in lock-step, every "
       "agent a process; realtime: the same by the clock, for agents that do not send (syn); or "
       "HOST:PORT:MONITORPORT of a server that runs");
@@ -171,7 +164,7 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingFile);
   command
       ->add_option("--set", arguments->assignments,
-                   "One value, name=value: a setting of the server (RuleHalfTime=60), or with a dot a "
+                   "One value, name=value: a setting of the server (QuickSolver=true), or with a dot a "
                    "parameter of both sides (team.ball.kick=false)")
       ->allow_extra_args(false);
   command->footer(

@@ -145,7 +145,8 @@ std::optional<ServerPlace> serverPlace(const std::string& place) {
   const std::size_t last = place.rfind(':');
   const std::size_t middle = last == std::string::npos || last == 0 ? last : place.rfind(':', last - 1);
   ServerPlace server;
-  if (middle != std::string::npos && middle > 0 && middle < last) {
+  const bool two = middle != std::string::npos && middle > 0 && middle < last;
+  if (two && place.find(':') == middle) {
     server.host = place.substr(0, middle);
     server.port = portFrom(std::string_view(place).substr(middle + 1, last - middle - 1));
     server.monitorPort = portFrom(std::string_view(place).substr(last + 1));

@@ -17,17 +17,17 @@ namespace nonet::app {
 
 SeriesRun playSeries(lab::SeriesSettings settings, const std::string& folder, int jobs,
                      const std::string& dataFolder, Console& console, const std::string& title) {
+  for (const lab::SideSettings* side : {&settings.a, &settings.b}) lab::checkSide(*side, dataFolder);
   const bool elsewhere = serverPlace(settings.place).has_value();
   settings.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
   settings.version = versionText();
-  for (lab::SideSettings* side : {&settings.a, &settings.b})
-    side->fingerprint = lab::fingerprintOf(*side, dataFolder);
+  lab::takeFingerprints(settings, dataFolder);
   const auto level = spdlog::get_level();
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   SeriesRun run;
   run.series = std::make_unique<lab::Series>(folder, settings);
   lab::Series& series = *run.series;
-  lab::writeOverlays(series.settings(), folder, dataFolder);
+  lab::writeOverlays(series.settings(), folder);
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int atOnce = elsewhere ? 1 : jobs > 0 ? jobs : cores;
   console.say(fmt::format("{}{} pairs, seeds {} to {}, {} games at a time, in {}", title, settings.pairs,
@@ -38,10 +38,12 @@ SeriesRun playSeries(lab::SeriesSettings settings, const std::string& folder, in
   const lab::PlayGame play = settings.place == "process"
                                  ? lab::inProcessGames(series.settings(), folder, dataFolder)
                                  : gamesOfProcesses(series.settings(), folder, dataFolder);
-  run.complete = lab::playSeries(series, atOnce, play, [&](const lab::SeriesProgress& progress) {
-    if (console.due()) console.progress(title + progress.line(series.settings()));
-    return !StopSignal::came();
-  });
+  run.complete = lab::playSeries(series, atOnce, lab::unlessChanged(series.settings(), dataFolder, play),
+                                 [&](const lab::SeriesProgress& progress) {
+                                   if (console.due())
+                                     console.progress(title + progress.line(series.settings()));
+                                   return !StopSignal::came();
+                                 });
   console.end();
   spdlog::set_level(level);
   run.result = run.complete ? series.finish() : series.result();

@@ -1,4 +1,5 @@
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -6,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/app/commands.h"
+#include "nonet/app/team_name.h"
 #include "nonet/sim/server/server.h"
 
 namespace nonet::app {
@@ -44,6 +46,10 @@ sim::Settings settingsFrom(const ServeArguments& arguments) {
   for (const std::string& file : arguments.files) settings.overlayFile(file);
   if (arguments.truth) settings.senseTruth();
   if (arguments.noNoise) settings.removeNoise();
+  for (const std::string& name : {arguments.leftTeam, arguments.rightTeam})
+    if (!name.empty()) checkTeamName(name);
+  if (!arguments.leftTeam.empty() && arguments.leftTeam == arguments.rightTeam)
+    throw std::runtime_error("--left and --right must be different names");
   if (!arguments.leftTeam.empty()) settings.leftTeam = arguments.leftTeam;
   if (!arguments.rightTeam.empty()) settings.rightTeam = arguments.rightTeam;
   if (arguments.solver == "quick") settings.quickSolver = true;

@@ -34,6 +34,7 @@ std::vector<std::string> expand(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (std::filesystem::is_directory(argument)) {
       const std::vector<std::string> inside = motion::skillFiles(argument);
+      if (inside.empty()) throw std::runtime_error(fmt::format("{}: holds no *.skl file", argument));
       files.insert(files.end(), inside.begin(), inside.end());
     } else {
       files.push_back(argument);

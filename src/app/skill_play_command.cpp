@@ -55,11 +55,11 @@ std::string skillIn(const fs::path& path) {
 
 /// A file beside others: the folder's skills with the numbers that stand there. What was learned for the
 /// skills of the data folder is not meant for these.
-void useFolderOf(const fs::path& file, const std::vector<std::string>& assignments,
-                 agent::AgentSettings& agent) {
+void useFolderOf(const fs::path& file, const agent::AgentChoice& choice, agent::AgentSettings& agent) {
   agent.skillFolder = motion::skillFolderOf(file.string());
   agent.parameters.motion.skills = motion::declareSkillParameters(agent.skillFolder);
-  for (const std::string& text : assignments) config::assignParameter(agent.parameters, text);
+  for (const std::string& overlay : choice.parameterFiles) config::overlayFile(agent.parameters, overlay);
+  for (const std::string& text : choice.assignments) config::assignParameter(agent.parameters, text);
 }
 
 void chooseSkill(const SkillPlayArguments& arguments, lab::SkillTrialSettings& settings) {
@@ -75,9 +75,10 @@ void chooseSkill(const SkillPlayArguments& arguments, lab::SkillTrialSettings& s
   } else {
     settings.skill = skillIn(file);
     agent::AgentChoice choice = arguments.choice;
-    choice.assignments.clear();
+    choice.assignments.clear();  // they may name parameters of its own skills
+    choice.parameterFiles.clear();
     settings.agent = agent::makeAgentSettings(choice, data);
-    useFolderOf(file, arguments.choice.assignments, settings.agent);
+    useFolderOf(file, arguments.choice, settings.agent);
   }
 }
 
@@ -85,7 +86,11 @@ int run(const SkillPlayArguments& arguments) {
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   lab::SkillTrialSettings settings = arguments.settings;
   chooseSkill(arguments, settings);
-  if (!arguments.ball.empty()) settings.ball = Vector2(arguments.ball.at(0), arguments.ball.at(1));
+  if (!arguments.ball.empty()) {
+    settings.ball = Vector2(arguments.ball.at(0), arguments.ball.at(1));
+    if (!settings.ball->allFinite())
+      throw std::runtime_error("--ball: expected two finite numbers, X,Y in metres");
+  }
   const lab::SkillTrial trial = lab::playSkill(settings);
   fmt::print("{}",
              arguments.json ? lab::skillReportJson(trial, settings) : lab::skillReportText(trial, settings));

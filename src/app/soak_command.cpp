@@ -12,6 +12,7 @@
 #include "nonet/app/soak/fault_soak.h"
 #include "nonet/app/soak/match_soak.h"
 #include "nonet/app/stop_signal.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/match/random_effectors.h"
 
 namespace nonet::app {
@@ -46,15 +47,16 @@ int runMatches(SoakArguments& arguments, Console& console) {
     text += value.is_number_float() ? fmt::format("\n  {:<24} {:.2f}", key, value.get<double>())
                                     : fmt::format("\n  {:<24} {}", key, value.dump());
   }
-  text +=
-      fmt::format("\nresult in {}/result.json{}\n", arguments.out,
-                  sum["matches"].get<int>() < arguments.matches.matches ? "; the same command goes on" : "");
+  text += fmt::format("\nresult in {0}/result.json{1}\n", arguments.out,
+                      sum["matches"].get<int>() < arguments.matches.matches
+                          ? fmt::format("; the same command goes on (--out {})", arguments.out)
+                          : "");
   return say(arguments, sum, text, good);
 }
 
 int runFaults(SoakArguments& arguments, Console& console) {
   const Json result = soakFaults(arguments.faults, console);
-  std::ofstream(arguments.out + "/faults.json") << result.dump(2) << "\n";
+  lab::writeAtomically(arguments.out + "/faults.json", result.dump(2) + "\n");
   std::string text =
       fmt::format("{:<12} {:>5} {:>9} {:>22}\n", "fault", "times", "survived", "all in play after s");
   for (const auto& [kind, tally] : result["faults"].items()) {
@@ -159,14 +161,18 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
           "So many minutes of random commands in one process instead, the physics watched in every cycle")
       ->excludes(harm)
       ->check(CLI::PositiveNumber);
-  command->add_flag("!--no-beams", arguments->effectors.beams,
-                    "With --effectors: nothing that puts robots into each other; the bounds are narrow then");
+  command
+      ->add_flag("!--no-beams", arguments->effectors.beams,
+                 "With --effectors: nothing that puts robots into each other; the bounds are narrow then")
+      ->needs(command->get_option("--effectors"));
   command->add_option("--seed", arguments->seed, "Decides everything that is drawn")->capture_default_str();
   command
       ->add_option("--players", arguments->players,
                    "Players a side; default 9, with --faults 3, with --effectors 4")
       ->check(CLI::Range(2, 11));
-  command->add_option("--out", arguments->out, "Folder; matches that are there are not played again");
+  command->add_option(
+      "--out", arguments->out,
+      "Folder of matches, which are not played again, or of --faults; --effectors writes nothing");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   command->footer(
       "Examples:\n"
@@ -175,7 +181,8 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
       "  nonet soak --faults --times 20                    agents, connections, server and disk are harmed\n"
       "  nonet soak --faults --kinds kill,cut --times 3\n"
       "  nonet soak --effectors 60 --seed 3                an hour of anything that is well-formed\n"
-      "A soak that was stopped goes on with the same command and --out.\n"
+      "Matches that were stopped go on with the same command and --out; --faults and --effectors begin "
+      "anew.\n"
       "Exit codes: 0 all done without a fault, 1 not.");
   command->callback([arguments, &exitCode] { exitCode = runSoak(*arguments); });
 }

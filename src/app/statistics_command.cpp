@@ -1,10 +1,10 @@
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/match/frame_sources.h"
 
 namespace nonet::app {
@@ -98,9 +98,7 @@ int runStatistics(const StatisticsArguments& arguments) {
   fmt::print("{} against {}, {:.1f} s of the game\n{}{}", names[0], names[1],
              json.at("seconds").get<double>(), table(json, names), playerTable(json, names));
   if (arguments.json.empty()) return 0;
-  std::ofstream file(arguments.json);
-  file << json.dump() << "\n";
-  if (!file.flush()) throw std::runtime_error("cannot write " + arguments.json);
+  lab::writeAtomically(arguments.json, json.dump() + "\n");
   fmt::print("everything in {}\n", arguments.json);
   return 0;
 }

@@ -37,7 +37,14 @@ int runTable(TableArguments& arguments) {
   lab::TableSettings table = lab::readTable(arguments.file, data);
   if (arguments.pairs) table.games.pairs = *arguments.pairs;
   if (arguments.minutes) table.games.minutes = *arguments.minutes;
-  for (const lab::SideSettings& side : table.sides) checkTeamName(side.name);
+  for (const lab::SideSettings& side : table.sides) {
+    checkTeamName(side.name);
+    try {
+      lab::checkSide(side, data);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(fmt::format("{}: side '{}': {}", arguments.file, side.name, error.what()));
+    }
+  }
   table.games.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
   table.games.version = versionText();
   table.games.commandLine = commandLine();

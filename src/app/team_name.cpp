@@ -14,10 +14,12 @@ void checkTeamName(const std::string& name) {
     throw std::runtime_error(fmt::format("team '{}': the name must have 1 to 64 letters", name));
   }
   for (const char letter : name) {
-    const bool control = static_cast<unsigned char>(letter) <= ' ' || letter == '\x7f';
-    if (!control && std::string_view("()\";/").find(letter) == std::string_view::npos) continue;
+    const bool plain = letter > ' ' && letter < '\x7f';  // bytes beyond ASCII are negative or larger
+    if (plain && std::string_view("()\";/").find(letter) == std::string_view::npos) continue;
     throw std::runtime_error(
-        fmt::format("team '{}': blanks, brackets, quotes, semicolons and slashes cannot be in a name", name));
+        fmt::format("team '{}': only ASCII letters without blanks, brackets, quotes, semicolons and slashes "
+                    "can be in a name",
+                    name));
   }
 }
 

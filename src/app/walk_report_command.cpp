@@ -1,5 +1,4 @@
 // nonet walk-report: how a parameter set walks.
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/walk_report.h"
 
 namespace nonet::app {
@@ -29,12 +29,6 @@ struct WalkReportArguments {
   std::string traceFile;
 };
 
-void writeFile(const std::string& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file));
-}
-
 int run(WalkReportArguments arguments) {
   arguments.choice.learned = !arguments.initial;
   if (arguments.server.overTcp && arguments.settings.courses > 0)
@@ -44,13 +38,13 @@ int run(WalkReportArguments arguments) {
   settings.setup = lab::trialSettings(agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data)));
   settings.server = arguments.server.chosen();
   if (!arguments.traceFile.empty()) {
-    writeFile(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));
+    lab::writeAtomically(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));
   }
   Console console(stderr);
   settings.progress = console.trials();
   const lab::WalkReport report = lab::measureWalk(settings);
   console.end();
-  if (!arguments.svgFile.empty()) writeFile(arguments.svgFile, lab::walkReportSvg(report));
+  if (!arguments.svgFile.empty()) lab::writeAtomically(arguments.svgFile, lab::walkReportSvg(report));
   fmt::print("{}", arguments.json ? lab::walkReportJson(report) : lab::walkReportTable(report));
   return 0;
 }

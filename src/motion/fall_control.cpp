@@ -70,6 +70,13 @@ bool FallControl::update(const world::WorldState& world, SkillPlayer& player, Jo
   return settle(world, targets);
 }
 
+void FallControl::reset(double time) {
+  phase_ = Phase::None;
+  lying_ = false;
+  attempts_ = 0;
+  uprightSince_ = time;
+}
+
 // The skill is over: the robot comes to rest in its stand, or the next attempt begins from what it has come
 // to.
 bool FallControl::settle(const world::WorldState& world, JointTargets& targets) {

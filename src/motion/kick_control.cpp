@@ -132,7 +132,7 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
     if (chosen_ != before) comesToStand_ = false;
     step = stepFor(request, walk, quiet);
     if (!step.begin || check_ == nullptr || check_->check(*chosen_, step.aim.ball).allows()) return step;
-    step.begin = false;
+    step.begin = step.inPlace = step.stand = comesToStand_ = false;
     refused = chosen_;
   }
   return step;

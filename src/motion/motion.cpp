@@ -58,6 +58,7 @@ struct Motion::Stages {
   bool startSkill(const PlaySkill& request);
   bool startKick(const KickTo& request);
   void updateWalk(const world::WorldState& world, const MotionRequest& request);
+  void endEverything(double time);
 
   MotionParameters parameters;
   std::shared_ptr<const SkillLibrary> library;
@@ -152,6 +153,15 @@ void Motion::Stages::updateWalk(const world::WorldState& world, const MotionRequ
   transition.apply(world.body.cycleTime, targets.angles);
 }
 
+// The robot was put onto its feet: a fall, and a skill that was begun elsewhere, are over.
+void Motion::Stages::endEverything(double time) {
+  fall.reset(time);
+  if (mode != Mode::Skill) return;
+  mode = Mode::Walk;
+  skillDone = true;
+  skillEnded = true;
+}
+
 Motion::Motion(const model::RobotModel& model, const MotionParameters& parameters,
                const std::string& skillFolder)
     : stages_(std::make_unique<Stages>(model, parameters, skillFolder)) {}
@@ -176,6 +186,7 @@ const JointTargets& Motion::update(const world::WorldState& world, const MotionR
   s.state.beam = beam;
   s.state.kicks = s.catalogue.options();
   s.putDown = s.putDown || beam.has_value();
+  if (world.body.putUpright) s.endEverything(world.time);
   const bool skillRuns = s.mode == Stages::Mode::Skill;
   const bool still = s.walk.standing() && world.body.gyro.norm() < s.parameters.kick.quietRate &&
                      world.body.footContact[0] && world.body.footContact[1];

@@ -86,9 +86,10 @@ class ConditionReader {
       node.value = reader_.value(quantity.unit);
       return add(node);
     }
-    reader_.fail(fmt::format(
-        "'{}' is no condition (upright fallen contact time pitch roll height ballDistance ballX ballY)",
-        reader_.peek().text));
+    reader_.fail(
+        fmt::format("'{}' is no condition (upright fallen contact time pitch roll rate height ballDistance "
+                    "ballX ballY, or one behind not)",
+                    reader_.peek().text));
   }
 
   SkillReader& reader_;

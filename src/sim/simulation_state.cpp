@@ -11,7 +11,7 @@ namespace nonet::sim {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x4e6f6e6574536d31ULL;  // "NonetSm1"
+constexpr std::uint64_t kMagic = 0x4e6f6e6574536d32ULL;  // "NonetSm2"
 
 // Percepts own memory; their text holds every bit of them.
 void putPercept(std::vector<std::uint8_t>& out, const protocol::Percept& percept) {
@@ -63,6 +63,7 @@ std::vector<std::uint8_t> Simulation::save() const {
     plainParts(*agent, [&out](const auto& value) { put(out, value); });
     putAll(out, agent->inbox);
     put(out, agent->noise.state());
+    put(out, agent->deafness.state());
     putPercept(out, agent->made);
     putPercept(out, agent->sent);
   }
@@ -94,6 +95,8 @@ void Simulation::restore(std::span<const std::uint8_t> state) {
     takeAll(state, agent->inbox);
     take(state, random);
     agent->noise.setState(random);
+    take(state, random);
+    agent->deafness.setState(random);
     takePercept(state, agent->made);
     takePercept(state, agent->sent);
     self.agents.push_back(std::move(agent));

@@ -109,7 +109,7 @@ double kickValue(const Situation& s, double direction, double length, bool maySc
   const double flown = scores > 0.0 ? std::min(toLine, length) : length;
   const Block block = blockOf(s, flown * unitVector(direction));
   const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unitVector(direction));
-  return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, 0.3);
+  return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, kStopped);
 }
 
 BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
@@ -130,7 +130,7 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.p_FTarget, best.value);
   const double left = timeLeftAtBall(s);
-  const double contested = valueAt(s, s.ball(), 0.5);
+  const double contested = valueAt(s, s.ball(), kContested);
   const Vector2 toGoal = s.world.field.theirGoal() - s.ball();
   weighKicks(s, {directionOf(toGoal), -kDirections, kDirections}, record, best,
              [&](const motion::KickHead& kick, double direction, double length) {

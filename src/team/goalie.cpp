@@ -51,9 +51,13 @@ std::optional<ComingShot> comingShot(const Situation& s) {
 
 Vector2 clearanceTarget(const Situation& s) {
   const GoalieParameters& p = s.parameters.goalie;
-  // In the middle the ball's side is noise: what the goalie has turned to stays.
-  const double y = s.ball().y();
-  const double side = std::abs(y) > p.clearanceSure ? y : std::sin(s.world.self.X_FR.rotation);
+  double side = s.ball().y();
+  if (s.setPlay) {
+    side -= s.setPlay->p_FReceiver.y();  // past who waits for a push
+  } else if (std::abs(side) < p.clearanceSure) {
+    // In the middle the ball's side is noise: what the goalie has turned to stays.
+    side = std::sin(s.world.teammates[1].X_FP.rotation);
+  }
   return {0.0, side >= 0.0 ? p.clearanceAside : -p.clearanceAside};
 }
 

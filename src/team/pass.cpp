@@ -13,9 +13,7 @@ namespace nonet::team {
 
 namespace {
 
-constexpr int kRuns = 3;            // places for each receiver: where it stands, and ahead of that
-constexpr double kStopped = 0.3;    // probability that a ball which an opponent stops is ours all the same
-constexpr double kContested = 0.5;  // that the ball is ours when the kick does not come off
+constexpr int kRuns = 3;  // places for each receiver: where it stands, and ahead of that
 
 bool canReceive(const Situation& s, int unum) {
   const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];

@@ -7,6 +7,9 @@
 
 namespace nonet::team {
 
+constexpr double kStopped = 0.3;    // probability that a ball which an opponent stops is ours all the same
+constexpr double kContested = 0.5;  // that the ball is ours when a kick does not come off
+
 /// Goals that the ball at p_F (own field frame, m) is worth when it is ours with this probability.
 double valueAt(const Situation& situation, const Vector2& p_F, double ours);
 

@@ -64,9 +64,11 @@ void RoleVoting::vote(const Situation& situation, int banned) {
     squad.places[i] = player.X_FP.translation;
     squad.times[i] = situation.timeToBall[number];
     const world::RadioReport& report = world.radio[number];
-    const bool silent = world.time - report.time < parameters.voteAge && !report.message.timeToBall;
+    const double since = world.time - report.time;
+    const bool silent = since < parameters.voteAge && !report.message.timeToBall;
+    const bool gone = report.time > world::kNever && unum != world.game.unum && since > parameters.goneAfter;
     if (silent) squad.times[i] += parameters.silentPenalty;
-    if (unum == banned) squad.times[i] += parameters.bannedPenalty;
+    if (unum == banned || gone) squad.times[i] += parameters.bannedPenalty;
     // Before a kick-off players come in one by one, and nobody is on its way yet.
     if (unum == onBall_ && !situation.waitsForKickOff()) squad.times[i] -= situation.parameters.keepBallTime;
   }

@@ -17,14 +17,18 @@ double direction(world::Phase phase, const Vector2& p_FB, const world::FieldGeom
   switch (phase) {
     case world::Phase::OwnKickOff:
       return parameters.kickOffAngle;
-    case world::Phase::OwnKickIn:
-      return inwards * parameters.kickInAngle;
+    case world::Phase::OwnKickIn: {
+      // Near the corner more across the field: the push must not roll over the goal line.
+      const double room = field.goalLine() - parameters.receiverMargin - p_FB.x();
+      const double sharpest = std::acos(std::clamp(room / (2.0 * parameters.passLength), -1.0, 1.0));
+      return inwards * std::max(parameters.kickInAngle, sharpest);
+    }
     case world::Phase::OwnCorner: {
       const Vector2 way = Vector2(field.goalLine() - parameters.cornerBack, 0.0) - p_FB;
       return directionOf(way);
     }
-    case world::Phase::OwnGoalKick:
-      return inwards * parameters.goalKickAngle;
+    case world::Phase::OwnGoalKick:  // the ball lies in the middle: always to the same side
+      return parameters.goalKickAngle;
     default: {
       const Vector2 way = field.theirGoal() - p_FB;
       return directionOf(way);

@@ -20,6 +20,7 @@ constexpr double kKickLift = 4.0;         // m/s, of that upwards
 constexpr double kKickGate = 14.0;        // squared sigmas
 constexpr double kRestartGate = 30.0;
 constexpr double kUnseenGrowth = 0.3;  // m/s
+constexpr double kPutSigma = 0.2;      // m, of where it crossed the touch line
 constexpr double kGrace = 0.3;         // s without a sighting before the growth begins
 constexpr double kKnownSigma = 1.2;    // m
 constexpr double kKnownAge = 8.0;      // s
@@ -53,7 +54,6 @@ void BallTracker::predict(double dt) {
   setMotion(ball);
   const double decay = flying ? kAirDecay : kRollDecay;
   StateMatrix F = StateMatrix::Identity();
-  F.topRightCorner<2, 2>() *= 0.0;
   F(0, 2) = F(1, 3) = dt;
   F(2, 2) = F(3, 3) = std::exp(-decay * dt);
   covariance_ = F * covariance_ * F.transpose();
@@ -89,7 +89,7 @@ void BallTracker::start(const Vector3& p_FB, const Matrix2& covariance) {
 
 void BallTracker::see(const protocol::Vision& vision, const SelfState& self, const Vector3& offset,
                       double time) {
-  if (!vision.ball) {
+  if (!vision.ball || !vision.ball->isFinite()) {
     if (!started_) return;
     const Vector3 p_CB = self.X_FC.inverse() * Vector3(state_(0), state_(1), height_);
     absences_ = clearlyInView(p_CB) ? absences_ + 1 : 0;
@@ -214,10 +214,18 @@ void BallTracker::hear(const Report& report, double time) {
 }
 
 void BallTracker::hold(const Vector2& p_FB, double time) {
-  if (started_ && time - lastSeen_ < kGrace) return;  // the eyes know better
+  if (started_ && time - lastSeen_ < kGrace) return;
   start({p_FB.x(), p_FB.y(), kBallRestHeight}, Matrix2::Identity() * 1e-4);
   covariance_.bottomRightCorner<2, 2>() = Matrix2::Identity() * 1e-2;
   lastReported_ = time;
+}
+
+void BallTracker::put(const Vector2& p_FB, double time) {
+  start({p_FB.x(), p_FB.y(), kBallRestHeight}, Matrix2::Identity() * kPutSigma * kPutSigma);
+  covariance_.bottomRightCorner<2, 2>() = Matrix2::Identity() * 1e-2;
+  lastReported_ = time;
+  sinceSeen_ = 0.0;
+  absences_ = 0;
 }
 
 void BallTracker::mirror() {

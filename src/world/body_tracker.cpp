@@ -56,6 +56,7 @@ bool BodyTracker::update(const protocol::Percept& percept, BodyState& state) {
   const double dt = cycles * kCycleTime;
   state.time = percept.time;
   state.cycleTime = dt;
+  state.putUpright = false;
   readJoints(percept, dt, state);
   model::forwardKinematics(*model_, state.joints, state.bodies);
   state.p_RCom = model::centerOfMass(*model_, state.bodies);
@@ -284,6 +285,22 @@ void BodyTracker::correctTilt(const Vector3& rotation, BodyState& state) {
   state.R_GR = turn * state.R_GR;
   previousR_GR_ = turn * previousR_GR_;
   updateAngles(state);
+}
+
+void BodyTracker::putUpright(BodyState& state) {
+  state.putUpright = true;
+  if (state.posture == Posture::Upright) return;
+  state.R_GR = Eigen::AngleAxisd(yawOf(state.R_GR), Vector3::UnitZ()).toRotationMatrix();
+  previousR_GR_ = state.R_GR;
+  settledVelocity_.setZero();
+  state.v_GR.setZero();
+  covariance_ << 0.01, 0.0, 0.0, 1e-4;
+  previousKinematic_ = {};
+  disagreement_ = 0.0;
+  tiltMismatches_ = 0;
+  updateAngles(state);
+  updateHeight(state);
+  updatePosture(state);
 }
 
 void BodyTracker::updateAngles(BodyState& state) const {

@@ -169,6 +169,7 @@ void ParticleFilter::correct(const GroundObservations& seen, const FieldMap& map
   }
   double fresh = tracking ? 0.1 : 0.1 + 0.4 * (1.0 - fit);
   if (slowFit_ > 1e-6) fresh = std::max(fresh, std::min(0.5, 1.0 - fastFit_ / slowFit_));
+  if (!(fresh >= 0.0)) fresh = 0.5;  // not a number: nothing of what there is can be trusted
   const auto replaced = static_cast<std::size_t>(fresh * static_cast<double>(particles_.size()));
   for (std::size_t i = 0; i < replaced; ++i) {
     // Evenly spaced victims: resampling keeps the copies of one particle together, so no hypothesis dies.

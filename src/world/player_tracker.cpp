@@ -49,7 +49,7 @@ std::optional<PlayerTracker::Sighting> PlayerTracker::evaluate(const protocol::S
   int count = 0;
   double distance = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!seen.parts[i]) continue;
+    if (!seen.parts[i] || !seen.parts[i]->isFinite()) continue;
     parts[i] = self.X_FC * (ObservedPoint(*seen.parts[i]).p_CP - offset);
     distance = std::max(distance, seen.parts[i]->distance);
   }

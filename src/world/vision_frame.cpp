@@ -43,10 +43,12 @@ void VisionFrame::assign(const protocol::Vision& vision) {
   clear();
   for (const protocol::SeenLandmark& seen : vision.landmarks) {
     if (landmarkCount_ == kMaximumLandmarks) break;
+    if (!seen.at.isFinite()) continue;
     landmarks_[landmarkCount_++] = {seen.id, ObservedPoint(seen.at)};
   }
   for (const protocol::SeenLine& seen : vision.lines) {
     if (lineCount_ == kMaximumLines) break;
+    if (!seen.begin.isFinite() || !seen.end.isFinite()) continue;
     ObservedLine& line = lines_[lineCount_++];
     line.ends = {ObservedPoint(seen.begin), ObservedPoint(seen.end)};
     for (std::size_t i = 0; i < 2; ++i) line.clipped[i] = onBorder(line.ends[i].p_CP);

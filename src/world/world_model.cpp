@@ -10,12 +10,14 @@
 #include "nonet/world/game_tracker.h"
 #include "nonet/world/localization.h"
 #include "nonet/world/player_tracker.h"
+#include "nonet/world/set_piece_spot.h"
 
 namespace nonet::world {
 
 namespace {
 
 constexpr int kBeamDelay = 2;            // messages from a command to its effect (server facts 1.2)
+constexpr double kBallRollsOn = 1.05;    // s of a set piece in which it is seen elsewhere (server facts 4.7)
 constexpr double kToldSigma = 0.05;      // m, beside what a mate says of its own accuracy: its own place
 constexpr double kToldThingSigma = 0.1;  // m, the same of what it sees
 constexpr double kLocalizedSigma = 0.3;  // m
@@ -65,6 +67,7 @@ struct WorldModel::Stages {
   void listen(const protocol::Percept& percept);
   void believe(const protocol::SayMessage& message, double time);
   void followOthers(const protocol::Percept& percept);
+  void followBall(const protocol::Percept& percept);
 
   BodyTracker body;
   GameTracker game;
@@ -73,6 +76,7 @@ struct WorldModel::Stages {
   PlayerTracker players;
   WorldState state;
   std::array<std::optional<Pose2>, kBeamDelay> beams;  // asked for, newest last
+  std::optional<Vector2> spot;  // where the ball will lie for the set piece, own field frame
 };
 
 void WorldModel::Stages::fillSelf() {
@@ -108,6 +112,7 @@ void WorldModel::Stages::followBeam() {
   std::array<Pose2, 2> places{*due, turned};
   if (playsFromRight(state.game)) std::swap(places[0], places[1]);
   localization.expectPlaces({places.data(), game.sideKnown() ? 1U : 2U}, state.time);
+  body.putUpright(state.body);
 }
 
 void WorldModel::Stages::listen(const protocol::Percept& percept) {
@@ -150,17 +155,27 @@ void WorldModel::Stages::believe(const protocol::SayMessage& message, double tim
   }
 }
 
-void WorldModel::Stages::followOthers(const protocol::Percept& percept) {
-  const Vector3& offset = localization.belief().offset;
-  ball.predict(state.body.cycleTime);
-  players.predict(state.body.cycleTime, state);
-  if (percept.vision) {
-    ball.see(*percept.vision, state.self, offset, state.time);
-    players.see(*percept.vision, offset, state);
+// A ball that has left the field does not matter any more, but where the referee will put it.
+void WorldModel::Stages::followBall(const protocol::Percept& percept) {
+  const GameState& now = state.game;
+  if (now.phaseSince == state.time) {
+    spot.reset();
+    if (state.ball.known) spot = setPieceSpot(now.phase, state.ball.p_FB.head<2>(), state.field);
   }
+  ball.predict(state.body.cycleTime);
+  const bool rollsOn = spot && state.time - now.phaseSince < kBallRollsOn;
+  if (percept.vision && !rollsOn)
+    ball.see(*percept.vision, state.self, localization.belief().offset, state.time);
   listen(percept);
-  if (state.game.phase == Phase::BeforeKickOff) ball.hold(Vector2::Zero(), state.time);
+  if (rollsOn) ball.put(*spot, state.time);
+  if (now.phase == Phase::BeforeKickOff) ball.hold(Vector2::Zero(), state.time);
   ball.fill(state.ball, state.self, state.time);
+}
+
+void WorldModel::Stages::followOthers(const protocol::Percept& percept) {
+  players.predict(state.body.cycleTime, state);
+  if (percept.vision) players.see(*percept.vision, localization.belief().offset, state);
+  followBall(percept);
   if (state.game.unum >= 1 && state.game.unum <= kTeamSize) {
     PlayerState& own = state.teammates[static_cast<std::size_t>(state.game.unum)];
     own.X_FP = state.self.X_FR;
@@ -207,6 +222,7 @@ const WorldState& WorldModel::update(const protocol::Percept& percept, const std
     stages.ball.mirror();
     stages.players.mirror(state);
     state.pass = {};
+    stages.spot.reset();
   }
   stages.fillSelf();
   stages.followOthers(percept);

@@ -116,13 +116,27 @@ TEST(Session, KeepsTheBeamOfAPassedOverMessage) {
 TEST(Session, TellsARefusal) {
   Session session(settings());
   session.begin();
-  for (int cycle = 0; cycle < Session::kRefusalPatience; ++cycle) {
+  for (int cycle = 0; cycle <= Session::kRefusalPatience; ++cycle) {
     session.receive(message(cycle));
     session.answer();
     ASSERT_EQ(session.stage(), Session::Stage::Introducing);
   }
-  session.receive(message(Session::kRefusalPatience));
+  session.receive(message(Session::kRefusalPatience + 1));
   EXPECT_EQ(session.stage(), Session::Stage::Refused);
+}
+
+// A process that slept for a second finds all messages at once: the server has refused nobody, since nobody
+// has introduced himself.
+TEST(Session, WhoHasNotAnsweredYetIsNotRefused) {
+  Session session(settings());
+  session.begin();
+  int cycle = 0;
+  for (; cycle < 2 * Session::kRefusalPatience; ++cycle) session.receive(message(cycle));
+  EXPECT_EQ(session.stage(), Session::Stage::Introducing);
+  EXPECT_THAT(std::string(session.answer()), HasSubstr("(init "));
+  session.receive(message(cycle++));
+  session.receive(message(cycle++, kAccepted));
+  EXPECT_EQ(session.stage(), Session::Stage::Playing);
 }
 
 TEST(Session, SurvivesAnything) {

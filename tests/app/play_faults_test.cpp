@@ -117,6 +117,21 @@ TEST_F(PlayFaults, SaysThatTheDiskIsFullWhenItIsAndPlaysOn) {
   EXPECT_EQ(output.find("recording stops"), output.rfind("recording stops")) << "said once";
 }
 
+// start.sh writes what an agent says and its log onto the same disk.
+TEST_F(PlayFaults, PlaysOnWhenItsWordsFindNoRoomEither) {
+  Program program({"play", "--port", std::to_string(server.port()), "--unum", "3", "--team", "Test",
+                   "--record", "/dev/full"},
+                  "/dev/full");
+  server.accept();
+  server.receive();
+  for (int i = 0; i < 3; ++i) {
+    server.send(standingMessage(1.0 + 0.02 * i));
+    EXPECT_TRUE(server.receive().has_value()) << i;
+  }
+  server.close();
+  EXPECT_EQ(program.wait(), 3);
+}
+
 /// Reads on until the robot introduces itself, and takes it into the team.
 void takeIn(FakeServer& server) {
   EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));

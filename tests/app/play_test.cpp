@@ -159,7 +159,7 @@ TEST(Play, TellsARefusal) {
   Player player(settingsFor(server));
   server.accept();
   server.receive();
-  for (int i = 0; i <= agent::Session::kRefusalPatience; ++i) {
+  for (int i = 0; i <= agent::Session::kRefusalPatience + 1; ++i) {
     server.send(standingMessage(1.0 + 0.02 * i));
     server.receive(0.5);
   }

@@ -98,6 +98,20 @@ TEST(Soak, PlaysMatchesAndGoesOnWhereItWas) {
   }
 }
 
+TEST(Soak, OtherOptionsAreAnotherSoak) {
+  const TestFolder folder("nonet_soak_options");
+  const auto soak = [&](const std::string& minutes) {
+    Program program({"soak", "--matches", "1", "--minutes", minutes, "--kick-off-wait", "0.3", "--players",
+                     "2", "--eleven-share", "0", "--realtime-share", "0", "--out", folder.file("out")},
+                    folder.file("soak.txt"));
+    return std::pair(program.wait(), program.output());
+  };
+  EXPECT_EQ(soak("0.02").first, 0);
+  const auto [code, output] = soak("0.03");
+  EXPECT_EQ(code, 1);
+  EXPECT_NE(output.find("another soak"), std::string::npos) << output;
+}
+
 TEST(Soak, WhoIsHarmedComesBack) {
   const TestFolder folder("nonet_soak_faults");
   Program program({"soak", "--faults", "--times", "1", "--players", "2", "--pause", "0.2", "--kinds",

@@ -6,6 +6,7 @@
 
 #include "nonet/lab/reports/rise_report.h"
 #include "nonet/motion/fall_control.h"
+#include "nonet/motion/motion.h"
 #include "nonet/motion/skill_library.h"
 #include "nonet/motion/skill_player.h"
 #include "nonet/motion/walk/engine.h"
@@ -109,6 +110,30 @@ TEST(FallControl, BeginsAnewWhenTheRobotComesToLieOnAnotherSide) {
     }
     EXPECT_EQ(turned.fall.attempts(), 1) << "it is still the first attempt";
   }
+}
+
+// A goal falls while a robot rises, and it is beamed to its place: it stands there.
+TEST(Rising, ABeamEndsIt) {
+  const TrialSettings setup = agentTrialSettings(0);
+  motion::Motion motion(model::robotModel(0), setup.motion, setup.skillFolder);
+  world::WorldState state;
+  const auto update = [&] {
+    state.time += kCycleTime;
+    return motion.update(state, motion::Stand{}, {}, {});
+  };
+  state.time = 10.0;
+  update();
+  state.body.posture = world::Posture::FallenBack;
+  for (int i = 0; i < 60; ++i) update();
+  ASSERT_TRUE(motion.fall().rising());
+  state.body.posture = world::Posture::Upright;
+  state.body.putUpright = true;
+  update();
+  EXPECT_FALSE(motion.fall().active());
+  EXPECT_FALSE(motion.state().rising);
+  state.body.putUpright = false;
+  for (int i = 0; i < 100; ++i) update();
+  EXPECT_FALSE(motion.fall().active());
 }
 
 TEST(RiseReport, TheSameSeedGivesTheSameFall) {

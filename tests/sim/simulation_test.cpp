@@ -462,7 +462,9 @@ TEST(Text, CarriesEveryBitOfTheValues) {
 }
 
 TEST(State, RestoringContinuesBitExactly) {
-  Simulation original(Settings{}, 21);
+  Settings settings;
+  settings.sayLossShare = 0.5;
+  Simulation original(settings, 21);
   const AgentHandle a = introduce(original, 0, 1, "A");
   const AgentHandle b = introduce(original, 2, 1, "B");
   Random random(3);
@@ -472,7 +474,7 @@ TEST(State, RestoringContinuesBitExactly) {
   }
   original.act(b, flail(random));  // a message that waits is part of the state
   const std::vector<std::uint8_t> state = original.save();
-  Simulation copy(Settings{}, 99);
+  Simulation copy(settings, 99);
   copy.restore(state);
   Random randomCopy = random;
   for (int i = 0; i < 60; ++i) {

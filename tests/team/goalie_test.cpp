@@ -184,8 +184,23 @@ TEST(Goalie, KeepsItsClaimInALargerRegion) {
   }
 }
 
-// The ball of a goal kick lies in the middle, give or take what the eyes tell.
+// In the middle the ball's side is what the eyes tell.
 TEST(Goalie, KeepsTheSideToWhichItClears) {
+  for (const double heading : {-0.3, 0.3}) {
+    for (const double y : {-0.02, 0.02}) {
+      Scene scene;
+      scene.world.game.unum = 1;
+      scene.stand(Pose2(-14.4, 0.0, heading));
+      scene.putBall({-14.0, y});
+      EXPECT_GT(clearanceTarget(scene.situation(Role::Goalie)).y() * heading, 0.0);
+      scene.putBall({-14.0, 100.0 * y});
+      EXPECT_GT(clearanceTarget(scene.situation(Role::Goalie)).y() * y, 0.0);
+    }
+  }
+}
+
+// Whatever it sees and wherever it faces: it kicks past the one who waits for a push.
+TEST(Goalie, KicksAGoalKickPastItsReceiver) {
   for (const double heading : {-0.3, 0.3}) {
     for (const double y : {-0.02, 0.02}) {
       Scene scene;
@@ -193,10 +208,30 @@ TEST(Goalie, KeepsTheSideToWhichItClears) {
       scene.world.game.phase = world::Phase::OwnGoalKick;
       scene.stand(Pose2(-14.4, 0.0, heading));
       scene.putBall({-14.0, y});
-      EXPECT_GT(clearanceTarget(scene.situation(Role::Goalie)).y() * heading, 0.0);
-      scene.putBall({-14.0, 100.0 * y});
-      EXPECT_GT(clearanceTarget(scene.situation(Role::Goalie)).y() * y, 0.0);
+      const Situation s = scene.situation(Role::Goalie);
+      ASSERT_TRUE(s.setPlay);
+      const Vector2 way = (clearanceTarget(s) - s.ball()).normalized();
+      const Vector2 receiver = s.setPlay->p_FReceiver - s.ball();
+      EXPECT_GT(std::abs(way.x() * receiver.y() - way.y() * receiver.x()), 0.7) << "m beside the way";
     }
+  }
+}
+
+// Who is on the ball when the goalie claims it stands ready, but not where the goalie kicks.
+TEST(Goalie, TheOneOnTheBallLeavesItTheWay) {
+  for (const double y : {-1.0, 1.0}) {
+    Scene scene;
+    scene.stand(Pose2(-12.0, y, kPi));
+    scene.putBall({-13.0, y});
+    scene.world.radio[1].time = scene.world.time;
+    scene.world.radio[1].message.timeToBall = 0.5;
+    const Action action = scene.decideAs(Role::OnBall);
+    ASSERT_EQ(action.reason.detail, "beside the ball");
+    const Vector2 place = scene.world.self.X_FR * std::get<motion::WalkTo>(action.motion).target.translation;
+    const Situation s = scene.situation(Role::OnBall);
+    const Vector2 way = (clearanceTarget(s) - s.ball()).normalized();
+    const Vector2 off = place - s.ball();
+    EXPECT_GT(std::abs(way.x() * off.y() - way.y() * off.x()), 0.7) << "m beside the way";
   }
 }
 

@@ -35,7 +35,7 @@ class Team {
       world::WorldState& world = worlds_[i];
       look(i, world);
       voting_[i]->update(assess(world, parameters_, motion_), banned);
-      if (protocol::saySlot(time_) != world.game.unum) continue;
+      if (protocol::saySlot(time_) != world.game.unum || world.game.unum == vanished) continue;
       protocol::SayMessage message;
       message.unum = world.game.unum;
       message.timeToBall = 1.0;
@@ -56,6 +56,7 @@ class Team {
     for (const auto& voting : voting_) players.insert(voting->onBall());
     return players.size() == 1 ? *players.begin() : 0;
   }
+  int onBallOf(int unum) const { return voting_[static_cast<std::size_t>(unum - kFirst)]->onBall(); }
   std::multiset<Role> roles() const {
     std::multiset<Role> roles;
     for (const auto& voting : voting_) roles.insert(voting->role());
@@ -67,6 +68,7 @@ class Team {
 
   Vector2 ball = Vector2(1.0, 1.0);
   int banned = 0;
+  int vanished = 0;  // says nothing any more
   world::Phase phase = world::Phase::PlayOn;
   VariantParameters& variant() { return parameters_.variant; }
 
@@ -174,6 +176,22 @@ TEST(RoleVoting, TheBannedPlayerHandsOver) {
   team.banned = 9;
   team.run(0.6);
   EXPECT_EQ(team.agreedOnBall(), 6);
+}
+
+// Its process has died, and the others still see the robot stand at the ball.
+TEST(RoleVoting, WhoIsNotHeardAnyMoreHandsOver) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Team team(seed);
+    team.run(1.5);
+    const int before = team.agreedOnBall();
+    ASSERT_NE(before, 0);
+    team.place(before) = team.ball + Vector2(-0.3, 0.0);
+    team.run(1.5);
+    ASSERT_EQ(team.agreedOnBall(), before);
+    team.vanished = before;
+    team.run(5.5);
+    EXPECT_NE(team.onBallOf(before == 5 ? 6 : 5), before) << "seed " << seed;
+  }
 }
 
 TEST(RoleVoting, WithoutAViewOfTheFieldThereIsNoVote) {

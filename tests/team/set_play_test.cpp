@@ -35,6 +35,24 @@ TEST(SetPlay, TheReceiverStandsWhereTheBallGoes) {
   }
 }
 
+// The push of a kick-in beside a corner rolls along the goal line rather than over it.
+TEST(SetPlay, AKickInStaysInTheFieldBesideTheCornerToo) {
+  for (double x = 12.0; x <= 14.95; x += 0.05) {
+    const Vector2 ball(x, 9.958);
+    const SetPlay play = setPlayFor(world::Phase::OwnKickIn, ball, {}, {});
+    EXPECT_LT(play.p_FTarget.x(), 15.0) << x;
+    EXPECT_LT(play.p_FTarget.y(), 8.5) << x;
+    EXPECT_LT(play.p_FReceiver.x(), 15.0) << x;
+  }
+}
+
+TEST(SetPlay, TheReceiverOfAGoalKickDoesNotChangeSidesWithTheNoise) {
+  const auto receiver = [](double y) {
+    return setPlayFor(world::Phase::OwnGoalKick, {-14.0, y}, {}, {}).p_FReceiver;
+  };
+  EXPECT_LT((receiver(0.01) - receiver(-0.01)).norm(), 0.03);
+}
+
 TEST(SetPlay, TheKickOffPassStaysInTheOwnHalf) {
   EXPECT_LT(setPlayFor(world::Phase::OwnKickOff, {0.0, 0.0}, {}, {}).p_FTarget.x(), 0.0);
 }

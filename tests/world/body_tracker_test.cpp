@@ -122,6 +122,26 @@ TEST(BodyTracker, RepeatedMessagesChangeNothingAndLostOnesAreCounted) {
   EXPECT_NEAR(state.cycleTime, 0.08, 1e-9);
 }
 
+// A beam sets the robot upright without turning it: the gyro sees nothing of it.
+TEST(BodyTracker, WhoIsPutUprightStands) {
+  BodyTracker tracker(model::robotModel(0), {});
+  BodyState state;
+  test::readRecording("fall_back.log.gz", [&](const protocol::Percept& percept) {
+    tracker.update(percept, state);
+    EXPECT_FALSE(state.putUpright);
+  });
+  ASSERT_TRUE(isFallen(state.posture));
+  const double yaw = state.yaw;
+  tracker.putUpright(state);
+  EXPECT_TRUE(state.putUpright);
+  EXPECT_EQ(state.posture, Posture::Upright);
+  EXPECT_NEAR(std::acos(state.R_GR(2, 2)), 0.0, 1e-6);
+  EXPECT_NEAR(state.yaw, yaw, 1e-9);
+  tracker.update(standing(state.time + kCycleTime), state);
+  EXPECT_FALSE(state.putUpright);
+  EXPECT_EQ(state.posture, Posture::Upright);
+}
+
 TEST(BodyTracker, IntegratesLostTurns) {
   // A constant turn of 1 rad/s about z, every third message lost.
   BodyTracker tracker(model::robotModel(0), {});

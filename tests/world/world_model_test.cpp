@@ -9,6 +9,8 @@
 #include "nonet/math/angle.h"
 #include "nonet/world/ball_law.h"
 #include "nonet/world/game_tracker.h"
+#include "nonet/world/set_piece_spot.h"
+#include "nonet/world/vision_frame.h"
 
 #include "recording.h"
 #include "vision_simulator.h"
@@ -243,6 +245,84 @@ TEST(WorldModel, SeesTheSameFieldFromBothSides) {
     int known = 0;
     for (const PlayerState& player : state.opponents) known += player.known ? 1 : 0;
     EXPECT_EQ(known, 2);
+  }
+}
+
+// Server facts 4.7, table: for either team, from wherever the ball left.
+TEST(SetPieceSpot, IsWhereTheServerPutsTheBall) {
+  const FieldGeometry field;
+  for (const double side : {-1.0, 1.0}) {
+    const auto spot = [&](Phase phase, double x, double y) {
+      return setPieceSpot(phase, {x, side * y}, field).value_or(Vector2::Zero());
+    };
+    EXPECT_LT((spot(Phase::OwnKickIn, 3.0, 10.4) - Vector2(3.0, side * 9.958)).norm(), 1e-9);
+    EXPECT_LT((spot(Phase::OpponentKickIn, -15.2, 10.4) - Vector2(-14.958, side * 9.958)).norm(), 1e-9);
+    EXPECT_LT((spot(Phase::OwnCorner, 15.3, 2.0) - Vector2(14.958, side * 5.483)).norm(), 1e-9);
+    EXPECT_LT((spot(Phase::OpponentCorner, -15.3, 8.0) - Vector2(-14.958, side * 5.483)).norm(), 1e-9);
+    EXPECT_LT((spot(Phase::OwnGoalKick, -15.3, 4.0) - Vector2(-14.0, 0.0)).norm(), 1e-9);
+    EXPECT_LT((spot(Phase::OpponentGoalKick, 15.3, 4.0) - Vector2(14.0, 0.0)).norm(), 1e-9);
+  }
+  EXPECT_FALSE(setPieceSpot(Phase::PlayOn, {0.0, 0.0}, field));
+  EXPECT_FALSE(setPieceSpot(Phase::OwnFreeKick, {0.0, 0.0}, field));
+}
+
+// It rolls on for a second, and then lies there: nobody runs after it.
+TEST(WorldModel, ABallThatLeftTheFieldIsWhereItWillLie) {
+  for (const TeamSide side : {TeamSide::Left, TeamSide::Right}) {
+    Scene scene(side, Pose2(-3.0, 0.0, 0.1));
+    WorldModel world(model::robotModel(0), {}, protocol::TeamName("Us"), 1);
+    for (int i = 0; i < 150; ++i) world.update(scene.next());
+    for (int i = 0; i < 100; ++i) {
+      protocol::Percept percept = scene.next();
+      percept.game.playMode = PlayMode::KickInLeft;
+      world.update(percept);
+      const BallState& ball = world.state().ball;
+      ASSERT_TRUE(ball.known) << i;
+      const bool lies = 0.02 * i > 1.2;  // the scene's ball is seen where it was before
+      const Vector2 expected = lies ? Vector2(2.0, 1.0) : Vector2(2.0, 9.958);
+      if (lies || i < 52) {
+        EXPECT_LT((ball.p_FB.head<2>() - expected).norm(), 0.1) << i;
+      }
+    }
+  }
+}
+
+// The real server sends ends of lines that are not a number (server facts 2.7).
+TEST(VisionFrame, LeavesOutWhatIsNoNumber) {
+  const protocol::Polar good{5.0, 0.1, -0.1};
+  const double nan = std::nan("");
+  protocol::Vision vision;
+  vision.lines.push_back({good, {nan, nan, nan}});
+  vision.lines.push_back({good, {4.0, 0.3, -0.1}});
+  vision.lines.push_back({{5.0, nan, 0.0}, good});
+  vision.landmarks.push_back({protocol::Landmark::F1L, {nan, 0.0, 0.0}});
+  VisionFrame frame;
+  frame.assign(vision);
+  EXPECT_EQ(frame.lines().size(), 1U);
+  EXPECT_EQ(frame.landmarks().size(), 0U);
+}
+
+// Lost, such a line in sight, found, lost again: the particles must stay places on the field.
+TEST(WorldModel, SurvivesLinesThatAreNoNumbers) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Scene scene(TeamSide::Left, Pose2(-3.0, 0.0, 0.1));
+    WorldModel world(model::robotModel(0), {}, protocol::TeamName("Us"), seed);
+    for (int i = 0; i < 300; ++i) {
+      protocol::Percept percept = scene.next();
+      if (percept.vision && i % 60 < 30) {
+        protocol::Vision& vision = *percept.vision;
+        vision.landmarks.clear();
+        vision.lines.clear();
+        const double nan = std::nan("");
+        vision.lines.push_back({{4.0, 0.3, -0.1}, {nan, nan, nan}});
+      }
+      world.update(percept);
+    }
+    for (const Pose2& particle : world.particles()) {
+      ASSERT_TRUE(particle.translation.allFinite()) << seed;
+      ASSERT_TRUE(std::isfinite(particle.rotation)) << seed;
+    }
+    EXPECT_TRUE(world.state().self.localized) << seed;
   }
 }
 

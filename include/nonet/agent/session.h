@@ -56,8 +56,8 @@ class Session {
   const protocol::Percept& percept() const { return percept_; }
   const Agent& agent() const { return *agent_; }
 
-  /// Messages without team and number after init that mean a refusal: the server's answer takes two
-  /// (facts 1.3), one second of them leaves room for late ones.
+  /// Messages without team and number after our first answer, which holds init, that mean a refusal: the
+  /// server's answer takes two (facts 1.3), one second of them leaves room for late ones.
   static constexpr int kRefusalPatience = 50;
 
  private:
@@ -68,6 +68,7 @@ class Session {
 
   SessionSettings settings_;
   std::unique_ptr<Agent> agent_;
+  long introducedAt_ = 0;  // messages received when the first answer was given
   protocol::Percept percept_;
   protocol::Effectors outgoing_;
   SessionCounts counts_;

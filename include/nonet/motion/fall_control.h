@@ -67,6 +67,9 @@ class FallControl {
   /// True while it is in control and has filled the targets.
   bool update(const world::WorldState& world, SkillPlayer& player, JointTargets& targets);
 
+  /// The robot stands, whatever it was doing.
+  void reset(double time);
+
   bool rising() const { return phase_ == Phase::Rising || phase_ == Phase::Settling; }
   bool active() const { return phase_ != Phase::None; }
   int attempts() const { return attempts_; }

@@ -42,8 +42,6 @@ class FootCurve {
   double shareAt(double time) const;
 
  private:
-  void addPoints();
-
   HermiteSpline<Vector3, Instruction::kMostPoints + 1> spline_;
   std::array<Vector3, Instruction::kMostPoints> points_{};  // relative to the origin
   std::array<Vector3, Instruction::kMostPoints + 1> attitudes_{};

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -39,6 +40,10 @@ struct Polar {
   double elevation = 0.0;  // rad
 
   Vector3 cartesian() const;  // p_CP, m
+  /// The real server sends ends of lines that are not (server facts 2.7).
+  bool isFinite() const {
+    return std::isfinite(distance) && std::isfinite(azimuth) && std::isfinite(elevation);
+  }
 };
 
 struct SeenLandmark {

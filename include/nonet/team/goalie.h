@@ -1,4 +1,4 @@
-// What the goalie's behaviours share (behaviors/guard_goal.cpp, dive.cpp, block.cpp): its place, and the shot
+// What the goalie's behaviours share (behaviors/guard_goal.cpp, dive.cpp): its place, and the shot
 // that comes.
 #pragma once
 

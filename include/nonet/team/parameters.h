@@ -113,6 +113,7 @@ struct AgreementParameters {
   double voteAge = 1.0;
   double claimAge = 1.0;
   double silentPenalty = 4.0;
+  double goneAfter = 3.5;
   double bannedPenalty = 60.0;
 
   template <class Self, class Visitor>
@@ -136,6 +137,12 @@ struct AgreementParameters {
            fixed,
            "Added to the time to the ball of a team mate that says nothing of playing it"},
           self.silentPenalty);
+    visit({"goneAfter",
+           Unit::Second,
+           {0, 60},
+           fixed,
+           "Who spoke before and was not heard for so long counts as banned: its process may have died"},
+          self.goneAfter);
     visit(
         {"bannedPenalty", Unit::Second, {0, 600}, fixed, "Added for the player that must not touch the ball"},
         self.bannedPenalty);

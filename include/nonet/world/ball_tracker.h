@@ -27,8 +27,10 @@ class BallTracker {
   /// `offset`: constant offset of the own camera, m.
   void see(const protocol::Vision& vision, const SelfState& self, const Vector3& offset, double time);
   void hear(const Report& report, double time);
-  /// The referee holds the ball here.
+  /// The referee holds the ball here; who sees it knows better.
   void hold(const Vector2& p_FB, double time);
+  /// The referee is about to put the ball here, wherever it is seen.
+  void put(const Vector2& p_FB, double time);
   /// The own team changed its side: half a turn.
   void mirror();
 

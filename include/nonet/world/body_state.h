@@ -37,6 +37,7 @@ struct BodyState {
   Vector3 v_GR = Vector3::Zero();  // velocity of the torso centre, m/s, axes of G
   Vector3 p_GR = Vector3::Zero();  // torso centre, m: x, y relative to its place at the start, drifting;
                                    // z above the ground
+  bool putUpright = false;         // the server has just done so: a beam
   bool asleep = false;             // the server froze the still robot: its senses repeat (server facts 3.4)
   Pose2 odometry;                  // torso pose on the ground since the start, drifting
   Pose2 odometryStep;              // change in this cycle, in the previous cycle's robot frame

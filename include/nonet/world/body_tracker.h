@@ -31,6 +31,9 @@ class BodyTracker {
   /// the heading of G is free). Comes from the camera's fit.
   void correctTilt(const Vector3& rotation, BodyState& state);
 
+  /// The server has put the robot onto its feet, at rest, in the cycle of the last message.
+  void putUpright(BodyState& state);
+
  private:
   struct KinematicVelocity {
     Vector3 v_GR = Vector3::Zero();

@@ -79,7 +79,6 @@ class ParticleFilter {
   };
   std::span<const Cluster> clusters() const { return {clusters_.data(), clusterCount_}; }
   std::span<const Particle> particles() const { return particles_; }
-  double effectiveSize() const { return effectiveSize_; }
   /// Spread of the heaviest cluster.
   const Eigen::Matrix3d& covariance() const { return covariance_; }
 

@@ -13,6 +13,8 @@
 #include "nonet/app/data_folder.h"
 #include "nonet/app/soak/memory_watch.h"
 #include "nonet/app/stop_signal.h"
+#include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/json_lines.h"
 #include "nonet/math/random.h"
 #include "nonet/protocol/log_file.h"
 
@@ -24,6 +26,9 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kEnding = 20.0;  // s for a match that was asked to stop
+// A match may take so long (s), and so many times its game time more. It has failed then.
+constexpr double kPatience = 120.0;
+constexpr double kSlowest = 20.0;
 
 /// A whole file that can be read to its end. Nothing is said of what stands in it.
 bool isWhole(const fs::path& path) {
@@ -57,28 +62,39 @@ class MatchSoak {
       if (done_.contains(index)) continue;
       const Json line = play(soakMatch(settings_, index));
       if (line.empty()) break;
-      std::ofstream(file("matches.jsonl"), std::ios::app) << line.dump() << "\n";
+      lab::appendLine(file("matches.jsonl"), line);
       played_.push_back(line);
     }
     console_.end();
     const Json sum = sumUp(played_);
-    std::ofstream(file("result.json")) << sum.dump(2) << "\n";
+    lab::writeAtomically(file("result.json"), sum.dump(2) + "\n");
     return static_cast<int>(played_.size()) == settings_.matches && sum.value("faults", 1L) == 0;
   }
 
  private:
   std::string file(const std::string& name) const { return (fs::path(settings_.out) / name).string(); }
 
+  /// What decides how each match is played.
+  Json choice() const {
+    return {{"seed", settings_.seed},
+            {"players", settings_.players},
+            {"minutes", settings_.minutes},
+            {"kick_off_wait_s", settings_.kickOffWait},
+            {"real_time_share", settings_.realTimeShare},
+            {"eleven_share", settings_.elevenShare}};
+  }
+
   void readPlayed() {
-    std::ifstream lines(file("matches.jsonl"));
-    for (std::string line; std::getline(lines, line);) {
-      const Json json = Json::parse(line, nullptr, false);  // the last one may be torn
-      if (!json.is_object() || json.value("index", -1) >= settings_.matches) continue;
-      const SoakMatch match = soakMatch(settings_, json.value("index", 0));
-      if (json.value("seed", std::uint64_t{0}) != match.seed)
-        throw std::runtime_error(settings_.out +
-                                 " holds another soak: give the same options or another --out");
-      if (done_.insert(match.index).second) played_.push_back(json);
+    const Json before = jsonFrom(file("soak.json"));
+    if (before.is_object() && before != choice())
+      throw std::runtime_error(
+          fmt::format("{} holds another soak ({}): give the same options or another --out", settings_.out,
+                      before.dump()));
+    lab::writeAtomically(file("soak.json"), choice().dump(2) + "\n");
+    for (const Json& line : lab::readWholeLines(file("matches.jsonl"))) {
+      const int index = line.value("index", -1);
+      if (index >= settings_.matches) continue;
+      if (done_.insert(index).second) played_.push_back(line);
     }
   }
 
@@ -104,13 +120,16 @@ class MatchSoak {
     AgentProcesses processes;
     processes.start(command, file(name + ".txt"));
     while (processes.poll(), processes.processes()[0].running) {
-      if (StopSignal::came()) {
+      const double time = std::chrono::duration<double>(Clock::now() - begin).count();
+      const bool hangs = time > kPatience + kSlowest * 60.0 * settings_.minutes;
+      if (hangs || StopSignal::came()) {
         ::kill(processes.processes()[0].pid, SIGTERM);
         processes.stop(kEnding);
-        return {};
+        if (!hangs) return {};
+        fs::remove(result);
+        break;
       }
-      watch(match, std::chrono::duration<double>(Clock::now() - begin).count(), processes.processes()[0].pid,
-            server, agents);
+      watch(match, time, processes.processes()[0].pid, server, agents);
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
     }
     Json line = {{"index", match.index},

@@ -191,7 +191,7 @@ std::string Track::message(std::size_t from, std::size_t eventsFrom, std::string
                                  {"slots", kSlots},     {"teams", {game_.teamLeft, game_.teamRight}},
                                  {"field", field_},     {"eventsFrom", eventsFrom},
                                  {"events", events}};
-  std::string json = header.dump();
+  std::string json = header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // foreign names
   json.resize((json.size() + 3) / 4 * 4, ' ');  // numbers lie at multiples of their size
   const auto length = static_cast<std::uint32_t>(json.size());
   const std::span<const float> numbers = rows(from);

@@ -29,6 +29,17 @@ Estimate estimate(const std::vector<double>& sample) {
   return {mean(sample), boost::math::quantile(student, 0.975) * standardError(sample)};
 }
 
+Estimate estimateShare(std::size_t hits, std::size_t trials) {
+  if (trials == 0) return {};
+  constexpr double kZ = 1.959964;  // 97.5 % point of the normal distribution
+  const auto n = static_cast<double>(trials);
+  const double share = static_cast<double>(hits) / n;
+  const double scale = 1.0 / (1.0 + kZ * kZ / n);
+  const double centre = scale * (share + kZ * kZ / (2.0 * n));
+  const double half = scale * kZ * std::sqrt(share * (1.0 - share) / n + kZ * kZ / (4.0 * n * n));
+  return {share, half + std::abs(centre - share)};
+}
+
 double quantile(std::vector<double> sample, double share) {
   if (sample.empty()) return 0.0;
   const auto rank = std::lround(share * static_cast<double>(sample.size() - 1));

@@ -1,6 +1,10 @@
 #include "nonet/lab/match/match.h"
 
+#include <array>
 #include <chrono>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -58,6 +62,21 @@ sim::Settings simulationSettings(const MatchSettings& match) {
   return settings;
 }
 
+void setServerSetting(sim::Settings& settings, const std::string& assignment) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kDecided{
+      {{"RuleHalfTime", "give the game time by --minutes"},
+       {"WaitBeforeKickOff", "give it by --kick-off-wait"},
+       {"AutomaticKickOff", "there is nobody else who would kick off"},
+       {"LeftTeam", "name the teams by their options"},
+       {"RightTeam", "name the teams by their options"}}};
+  const std::string_view name = std::string_view(assignment).substr(0, assignment.find('='));
+  for (const auto& [decided, advice] : kDecided) {
+    if (name == decided)
+      throw std::runtime_error(fmt::format("{}: the match decides this itself: {}", assignment, advice));
+  }
+  settings.setAssignment(assignment);
+}
+
 agent::AgentChoice agentChoice(const MatchSettings& match, bool rightTeam, int unum) {
   const TeamSettings& team = rightTeam ? match.right : match.left;
   agent::AgentChoice agent;
@@ -100,8 +119,10 @@ void MatchWatcher::update(const sim::Simulation& simulation) {
   const sim::MatchState& match = simulation.match();
   ++result_.cycles;
   if (invariants_) invariants_->check(simulation);
-  result_.scoreLeft = match.scoreLeft;
-  result_.scoreRight = match.scoreRight;
+  // The score of whoever began on the left, on whichever side it plays now.
+  const bool changed = match.teamLeft.view() == result_.teamRight;
+  result_.scoreLeft = changed ? match.scoreRight : match.scoreLeft;
+  result_.scoreRight = changed ? match.scoreLeft : match.scoreRight;
   result_.gameTime = match.time;
   result_.finished = match.playMode == protocol::PlayMode::GameOver;
 
@@ -142,7 +163,7 @@ std::string MatchWatcher::progress(const sim::Simulation& simulation) const {
   const sim::Vector3f ball = simulation.world().ballPosition();
   const int seconds = static_cast<int>(match.time);
   return fmt::format("{:02}:{:02} {} {} : {} {}  {:<16} ball {:6.2f} {:6.2f}  falls {} : {}", seconds / 60,
-                     seconds % 60, result_.teamLeft, match.scoreLeft, match.scoreRight, result_.teamRight,
+                     seconds % 60, result_.teamLeft, result_.scoreLeft, result_.scoreRight, result_.teamRight,
                      protocol::playModeName(match.playMode), ball.x(), ball.y(), result_.falls(false),
                      result_.falls(true));
 }
@@ -193,7 +214,11 @@ MatchResult playInProcess(const MatchSettings& match, const std::string& dataFol
     if (observers.afterCycle && !observers.afterCycle(simulation, watcher)) more = false;
   }
   MatchResult result = watcher.finish(simulation);
-  for (std::size_t i = 0; i < players.size(); ++i) result.players[i].messages = players[i].messages;
+  for (std::size_t i = 0; i < players.size(); ++i) {
+    PlayerRecord& record = result.players[i];
+    record.messages = players[i].messages;
+    if (!record.connected) record.ending = "refused by the server";
+  }
   result.wallTime = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -4,12 +4,11 @@
 #include <fstream>
 #include <stdexcept>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/folder_lock.h"
+#include "nonet/lab/common/json_lines.h"
 
 namespace nonet::lab {
 namespace {
@@ -22,50 +21,14 @@ constexpr const char* kMatches = "matches.jsonl";
 constexpr const char* kTimes = "times.jsonl";
 constexpr const char* kResult = "result.json";
 
-// Held until the last copy goes or the process ends, however it ends.
-std::shared_ptr<void> lockFolder(const std::string& folder) {
-  const std::string path = folder + "/lock";
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0) throw std::runtime_error(fmt::format("cannot write {}", path));
-  if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
-    ::close(file);
-    throw std::runtime_error(
-        fmt::format("another process works on {}: wait for its end or stop it first", folder));
-  }
-  return {nullptr, [file](void*) { ::close(file); }};
-}
-
 int indexOf(const ordered_json& line) {
   return 2 * (line.at("pair").get<int>() - 1) + line.at("game").get<int>() - 1;
 }
 
-// Whole lines of a file that a killed process may have left with half a line at its end; that half is cut
-// off, so that the next line begins well.
-std::map<int, ordered_json> readWholeLines(const std::string& path) {
-  std::map<int, ordered_json> lines;
-  std::ifstream file(path, std::ios::binary);
-  std::uintmax_t whole = 0;
-  for (std::string text; std::getline(file, text) && !file.eof();) {
-    const ordered_json line = ordered_json::parse(text, nullptr, false);
-    if (line.is_discarded())
-      throw std::runtime_error(fmt::format("{}: line {} is damaged", path, lines.size() + 1));
-    lines[indexOf(line)] = line;
-    whole += text.size() + 1;
-  }
-  file.close();
-  if (fs::exists(path) && fs::file_size(path) != whole) fs::resize_file(path, whole);
-  return lines;
-}
-
-// On the disk when it returns.
-void appendLine(const std::string& path, const std::string& text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  const std::string line = text + "\n";
-  const bool written = file >= 0 &&
-                       ::write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
-                       ::fdatasync(file) == 0;
-  if (file >= 0) ::close(file);
-  if (!written) throw std::runtime_error(fmt::format("cannot write {}: is the disk full?", path));
+std::map<int, ordered_json> readGames(const std::string& path) {
+  std::map<int, ordered_json> games;
+  for (const ordered_json& line : readWholeLines(path)) games[indexOf(line)] = line;
+  return games;
 }
 
 }  // namespace
@@ -89,27 +52,38 @@ Series::Series(const std::string& folder, const SeriesSettings& settings)
     : folder_(folder), settings_(settings) {
   fs::create_directories(folder);
   lock_ = lockFolder(folder);
-  if (fs::exists(path(kChoice))) {
-    std::ifstream file(path(kChoice));
-    const auto before = SeriesSettings::fromJson(ordered_json::parse(file));
-    const bool same = before.sameGames(settings);
-    if (!same && fs::exists(path(kMatches)))
-      throw std::runtime_error(fmt::format(
-          "{} holds a series of other games (see series.json; the program or a side's files may have "
-          "changed): choose another folder with --out",
-          folder));
-    if (same) settings_ = before;
-    settings_.pairs = settings.pairs;
-    settings_.sequential = settings.sequential;
-    settings_.monitorLogs = settings.monitorLogs;
-  }
+  if (fs::exists(path(kChoice))) resume(settings);
   writeAtomically(path(kChoice), settings_.toJson().dump(1) + "\n");
-  readLines();
+  if (!open().empty()) fs::remove(path(kResult));  // of fewer games
+}
+
+void Series::resume(const SeriesSettings& settings) {
+  std::ifstream file(path(kChoice));
+  const auto before = SeriesSettings::fromJson(ordered_json::parse(file));
+  if (before.sameGames(settings)) {
+    settings_ = before;
+    readLines();
+  } else if (fs::exists(path(kMatches))) {
+    throw std::runtime_error(fmt::format(
+        "{} holds a series of other games (see series.json; the program or a side's files may have "
+        "changed): choose another folder with --out",
+        folder_));
+  }
+  const int counted = result().games;
+  settings_.pairs = settings.pairs;
+  settings_.sequential = settings.sequential;
+  settings_.monitorLogs = settings.monitorLogs;
+  const int counts = result().games;
+  if (counts < counted)
+    throw std::runtime_error(fmt::format(
+        "{} holds {} games, of which only {} would count with these --pairs and --sprt: give those it was "
+        "played with (see series.json), or choose another folder with --out",
+        folder_, counted, counts));
 }
 
 void Series::readLines() {
-  const std::map<int, ordered_json> times = readWholeLines(path(kTimes));
-  for (const auto& [index, line] : readWholeLines(path(kMatches))) {
+  const std::map<int, ordered_json> times = readGames(path(kTimes));
+  for (const auto& [index, line] : readGames(path(kMatches))) {
     GameRecord record{gameOf(settings_, index), line, {}};
     if (record.game.seed != line.at("seed").get<std::uint64_t>())
       throw std::runtime_error(fmt::format("{}: a game has another seed than the series", path(kMatches)));
@@ -132,8 +106,8 @@ void Series::add(const GameRecord& record) {
   const int index = indexOf(record.line);
   if (has(index)) return;
   // A game without its times is whole, times without their game are passed over.
-  appendLine(path(kTimes), record.times.dump());
-  appendLine(path(kMatches), record.line.dump());
+  appendLine(path(kTimes), record.times);
+  appendLine(path(kMatches), record.line);
   records_.emplace(index, record);
 }
 

@@ -33,6 +33,14 @@ std::string verdictText(const SeriesResult& result, const SeriesSettings& settin
 
 }  // namespace
 
+ordered_json SeriesResult::differenceJson() const {
+  const bool known = difference.pairs > 1;
+  return {{"difference_per_10_min", difference.mean},
+          {"standard_error", known ? ordered_json(difference.standardError) : ordered_json()},
+          {"interval_95", known ? ordered_json({difference.low, difference.high}) : ordered_json()},
+          {"stopped_early", verdict != Verdict::Open}};
+}
+
 ordered_json SeriesResult::toJson(const SeriesSettings& settings) const {
   ordered_json json = {{"a", settings.a.describe()},
                        {"b", settings.b.describe()},
@@ -51,10 +59,8 @@ ordered_json SeriesResult::toJson(const SeriesSettings& settings) const {
                        {"goals_b", goalsB},
                        {"crashed", {crashedA, crashedB}},
                        {"gone", {goneA, goneB}},
-                       {"difference_per_10_min", difference.mean},
-                       {"standard_error", difference.standardError},
-                       {"interval_95", {difference.low, difference.high}},
                        {"pairs", pairs}};
+  json.update(differenceJson());
   if (settings.sequential) {
     json["sprt"] = {{"low", settings.sequential->low},
                     {"high", settings.sequential->high},
@@ -68,9 +74,10 @@ std::string SeriesResult::toText(const SeriesSettings& settings) const {
   std::string text = fmt::format("\nA: {}\nB: {}\n", settings.a.describe(), settings.b.describe());
   text += fmt::format("{} games of {:g} minutes ({} pairs): A won {}, tied {}, lost {}; goals {} : {}\n",
                       games, settings.minutes, pairs.size(), wins, ties, losses, goalsA, goalsB);
-  text +=
-      fmt::format("goal difference per ten minutes, A minus B: {:+.3f} (standard error {:.3f}), 95 % {}\n",
-                  difference.mean, difference.standardError, interval(difference));
+  text += fmt::format(
+      "goal difference per ten minutes, A minus B: {:+.3f} (standard error {:.3f}), 95 % {}{}\n",
+      difference.mean, difference.standardError, interval(difference),
+      verdict == Verdict::Open ? "" : " (too narrow and too far out: it ended because it had decided)");
   if (crashedA + crashedB + goneA + goneB > 0)
     text += fmt::format("agents that crashed {} : {}, players not there at the end of a game {} : {}\n",
                         crashedA, crashedB, goneA, goneB);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 
@@ -32,6 +33,12 @@ std::string_view roleName(team::Role role) {
       "forward left", "forward right", "supporter", "sweeper",    "goalie"};
   const auto i = static_cast<std::size_t>(role);
   return i < kNames.size() ? kNames[i] : "other";
+}
+
+// Its agents would be started from another file than the one that runs.
+bool programWasReplaced() {
+  std::error_code error;
+  return !std::filesystem::exists(std::filesystem::read_symlink("/proc/self/exe", error), error);
 }
 
 // The games of one run of the program, shared among the threads that play them.
@@ -141,6 +148,20 @@ class Run {
 };
 
 }  // namespace
+
+PlayGame unlessChanged(const SeriesSettings& settings, const std::string& dataFolder, const PlayGame& play) {
+  return [settings, dataFolder, play](const SeriesGame& game, const std::function<bool(double)>& goOn) {
+    GameRecord record = play(game, goOn);
+    SeriesSettings now = settings;
+    takeFingerprints(now, dataFolder);
+    if (!now.sameGames(settings) || (settings.place != "process" && programWasReplaced()))
+      throw std::runtime_error(
+          fmt::format("a file of a side or of the server's settings changed during game {} of pair {}, which "
+                      "is not counted: put it back, or begin anew in another folder",
+                      game.game, game.pair));
+    return record;
+  };
+}
 
 bool playSeries(Series& series, int jobs, const PlayGame& play,
                 const std::function<bool(const SeriesProgress&)>& watch) {

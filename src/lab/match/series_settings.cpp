@@ -11,6 +11,10 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include "nonet/agent/agent_setup.h"
+#include "nonet/agent/data_folder.h"
+#include "nonet/model/robot_model.h"
+
 namespace nonet::lab {
 namespace {
 
@@ -81,23 +85,42 @@ void hashFile(const std::string& path, std::uint64_t& hash) {
   }
 }
 
+std::string fingerprintOfFiles(const std::vector<std::string>& files) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const std::string& file : files) hashFile(file, hash);
+  return fmt::format("{:016x}", hash);
+}
+
+// Where the side's program reads params/ and skills/; empty: it will say itself that it finds none.
+std::string dataOf(const SideSettings& side, const std::string& dataFolder) {
+  if (!side.dataFolder.empty()) return side.dataFolder;
+  if (side.executable.empty()) return dataFolder;
+  try {
+    return agent::dataFolder("", "", side.executable, "");
+  } catch (const agent::DataError&) {
+    return "";
+  }
+}
+
 }  // namespace
 
 std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder) {
   if (!side.command.empty()) return "";
   std::vector<std::string> files = {side.executable.empty() ? "/proc/self/exe" : side.executable};
-  if (side.ours()) {
-    const std::string& data = side.dataFolder.empty() ? dataFolder : side.dataFolder;
-    for (const char* folder : {"/params", "/skills"}) {
-      if (!fs::is_directory(data + folder)) continue;
-      for (const auto& entry : fs::directory_iterator(data + folder)) files.push_back(entry.path().string());
-    }
+  const std::string data = dataOf(side, dataFolder);
+  for (const char* folder : {"/params", "/skills"}) {
+    if (!fs::is_directory(data + folder)) continue;
+    for (const auto& entry : fs::directory_iterator(data + folder)) files.push_back(entry.path().string());
   }
   std::sort(files.begin() + 1, files.end());
   files.insert(files.end(), side.parameterFiles.begin(), side.parameterFiles.end());
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const std::string& file : files) hashFile(file, hash);
-  return fmt::format("{:016x}", hash);
+  return fingerprintOfFiles(files);
+}
+
+void takeFingerprints(SeriesSettings& settings, const std::string& dataFolder) {
+  for (SideSettings* side : {&settings.a, &settings.b}) side->fingerprint = fingerprintOf(*side, dataFolder);
+  settings.settingsFingerprint =
+      settings.settingFiles.empty() ? "" : fingerprintOfFiles(settings.settingFiles);
 }
 
 std::string SideSettings::describe() const {
@@ -160,6 +183,7 @@ ordered_json SeriesSettings::toJson() const {
                        {"players", players},
                        {"setting_files", settingFiles},
                        {"settings", settingAssignments},
+                       {"settings_fingerprint", settingsFingerprint},
                        {"sprt", nullptr},
                        {"place", place},
                        {"server_command", serverCommand},
@@ -181,6 +205,7 @@ SeriesSettings SeriesSettings::fromJson(const ordered_json& json) {
   json.at("players").get_to(settings.players);
   json.at("setting_files").get_to(settings.settingFiles);
   json.at("settings").get_to(settings.settingAssignments);
+  settings.settingsFingerprint = json.value("settings_fingerprint", "");
   if (!json.at("sprt").is_null())
     settings.sequential =
         SequentialBounds{json.at("sprt").at(0).get<double>(), json.at("sprt").at(1).get<double>()};
@@ -195,8 +220,18 @@ SeriesSettings SeriesSettings::fromJson(const ordered_json& json) {
 bool SeriesSettings::sameGames(const SeriesSettings& other) const {
   return a == other.a && b == other.b && seed == other.seed && minutes == other.minutes &&
          kickOffWait == other.kickOffWait && players == other.players && settingFiles == other.settingFiles &&
-         settingAssignments == other.settingAssignments && place == other.place &&
-         serverCommand == other.serverCommand;
+         settingAssignments == other.settingAssignments && settingsFingerprint == other.settingsFingerprint &&
+         place == other.place && serverCommand == other.serverCommand;
+}
+
+std::string placeFor(const SeriesSettings& settings) {
+  const bool ours = settings.a.ours() && settings.b.ours();
+  if (settings.place.empty()) return ours ? "process" : "tcp";
+  if (settings.place == "process" && !ours)
+    throw std::runtime_error(fmt::format(
+        "{} against {}: in one process only this program can play: give tcp as the place, or none",
+        settings.a.name, settings.b.name));
+  return settings.place;
 }
 
 SeriesGame gameOf(const SeriesSettings& settings, int index) {
@@ -216,12 +251,24 @@ MatchSettings matchOf(const SeriesSettings& settings, const SeriesGame& game,
   if (settings.monitorLogs)
     match.monitorLog = fmt::format("{}/game-{}-{}.mon", overlayFolder, game.pair, game.game);
   for (const std::string& file : settings.settingFiles) match.settings.overlayFile(file);
-  for (const std::string& assignment : settings.settingAssignments) match.settings.setAssignment(assignment);
+  for (const std::string& assignment : settings.settingAssignments)
+    setServerSetting(match.settings, assignment);
   return match;
 }
 
-void writeOverlays(const SeriesSettings& settings, const std::string& overlayFolder,
-                   const std::string& dataFolder) {
+void checkSide(const SideSettings& side, const std::string& dataFolder) {
+  if (!side.ours()) return;
+  for (int robotType = 0; robotType < model::kRobotTypeCount; ++robotType) {
+    agent::AgentChoice agent;
+    agent.robotType = robotType;
+    agent.parameterFiles = side.parameterFiles;
+    agent.assignments = side.assignments;
+    (void)agent::makeAgentSettings(agent, side.dataFolder.empty() ? dataFolder : side.dataFolder);
+  }
+  for (const std::string& assignment : side.assignments) (void)assignmentToml(assignment);
+}
+
+void writeOverlays(const SeriesSettings& settings, const std::string& overlayFolder) {
   for (const bool sideB : {false, true}) {
     const SideSettings& side = sideB ? settings.b : settings.a;
     if (!side.assignments.empty()) {
@@ -229,12 +276,6 @@ void writeOverlays(const SeriesSettings& settings, const std::string& overlayFol
       for (const std::string& assignment : side.assignments) file << assignmentToml(assignment);
       if (!file.flush())
         throw std::runtime_error(fmt::format("cannot write {}", overlayFile(overlayFolder, sideB)));
-    }
-    if (!side.ours()) continue;
-    MatchSettings match = matchOf(settings, gameOf(settings, 0), overlayFolder);
-    for (int unum = 1; unum <= settings.players; ++unum) {
-      agent::makeAgentSettings(agentChoice(match, sideB, unum),
-                               side.dataFolder.empty() ? dataFolder : side.dataFolder);
     }
   }
 }

@@ -10,7 +10,8 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string difference(const PairSummary& summary) {
-  return fmt::format("{:+.2f} ({:.2f})", summary.mean, summary.standardError);
+  return summary.pairs < 2 ? fmt::format("{:+.2f}", summary.mean)
+                           : fmt::format("{:+.2f} ({:.2f})", summary.mean, summary.standardError);
 }
 
 std::string interval(const PairSummary& summary) {
@@ -103,7 +104,7 @@ SeriesSettings seriesOf(const TableSettings& table, const TableEntry& entry) {
   SeriesSettings settings = table.games;
   settings.a = table.sides[entry.a];
   settings.b = table.sides[entry.b];
-  if (settings.place.empty()) settings.place = settings.a.ours() && settings.b.ours() ? "process" : "tcp";
+  settings.place = placeFor(settings);
   return settings;
 }
 
@@ -118,7 +119,10 @@ std::string tableText(const TableSettings& table, const std::vector<TableEntry>&
   text += fmt::format("games of {:g} minutes, {} a side\n{}, {}: {}\n\n", games.minutes, games.players,
                       games.date, games.version, games.commandLine);
   if (!table.against) text += matrix(table, entries) + "\n";
-  return text + oneAgainstAll(table, pointersTo(entries));
+  text += oneAgainstAll(table, pointersTo(entries));
+  if (games.sequential)
+    text += "Differences of entries with a verdict lie too far out: these ended when they had decided.\n";
+  return text;
 }
 
 ordered_json tableJson(const TableSettings& table, const std::vector<TableEntry>& entries) {
@@ -144,10 +148,8 @@ ordered_json tableJson(const TableSettings& table, const std::vector<TableEntry>
                    {"ties", result.ties},
                    {"losses", result.losses},
                    {"goals_a", result.goalsA},
-                   {"goals_b", result.goalsB},
-                   {"difference_per_10_min", result.difference.mean},
-                   {"standard_error", result.difference.standardError},
-                   {"interval_95", {result.difference.low, result.difference.high}}});
+                   {"goals_b", result.goalsB}});
+      line.update(result.differenceJson());
       if (games.sequential) line["verdict"] = verdictName(result.verdict);
     }
     json["entries"].push_back(line);

@@ -130,7 +130,8 @@ TableSettings readTable(const std::string& path, const std::string& dataFolder) 
   reader.ignore("side");
   reader.end();
   games.seed = static_cast<std::uint64_t>(seed);
-  if (games.pairs < 1 || games.minutes <= 0.0 || games.players < 1 || games.players > 11)
+  if (games.pairs < 1 || !(games.minutes > 0.0 && games.minutes < 1e4) || games.players < 1 ||
+      games.players > 11)
     reader.fail(file, "pairs, minutes and players must be positive, players at most 11");
   if (!sprt.empty()) {
     if (sprt.size() != 2 || sprt[0] >= sprt[1])

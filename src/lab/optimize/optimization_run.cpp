@@ -8,13 +8,11 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/folder_lock.h"
 #include "nonet/lab/common/statistics.h"
 
 namespace nonet::lab {
@@ -28,7 +26,6 @@ constexpr const char* kConfig = "/config.json";
 constexpr const char* kGenerations = "/generations.jsonl";
 constexpr const char* kCheckpoint = "/checkpoint.json";
 constexpr const char* kBest = "/best.toml";
-constexpr const char* kLock = "/lock";
 
 json vectorJson(const Eigen::VectorXd& vector) {
   return std::vector<double>(vector.begin(), vector.end());
@@ -65,19 +62,6 @@ const OptimizationSettings& checked(const OptimizationSettings& settings) {
   demand(settings.validationEvery >= 1, "generations between validations must be 1 or more",
          settings.validationEvery);
   return settings;
-}
-
-// Held until the last copy goes or the process ends, however it ends.
-std::shared_ptr<void> lockFolder(const std::string& folder) {
-  const std::string path = folder + kLock;
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0) throw std::runtime_error(fmt::format("cannot write {}", path));
-  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
-    close(file);
-    throw std::runtime_error(
-        fmt::format("another process works on {}: wait for its end or stop it first", folder));
-  }
-  return {nullptr, [file](void*) { close(file); }};
 }
 
 CmaEsSettings cmaSettings(const OptimizationSettings& settings, const SearchSpace& space) {
@@ -160,6 +144,9 @@ OptimizationRun OptimizationRun::resume(const std::string& folder, const std::st
   run.lock_ = lock;
   // Killed before the first checkpoint: from the beginning.
   if (fs::exists(folder + kCheckpoint)) run.readCheckpoint();
+  if (settings.generations < run.generation())
+    throw std::runtime_error(fmt::format("{} has {} generations already: --generations cannot take any back",
+                                         folder, run.generation()));
   const std::string lines = folder + kGenerations;
   if (!fs::exists(lines) || static_cast<std::int64_t>(fs::file_size(lines)) < run.bytes_)
     throw std::runtime_error(

@@ -52,7 +52,8 @@ json OptimizationSettings::toJson() const {
           {"parameters", parameters},
           {"inherited", std::move(origins)},
           {"date", date},
-          {"version", version}};
+          {"version", version},
+          {"fingerprint", fingerprint}};
 }
 
 OptimizationSettings OptimizationSettings::fromJson(const json& value) {
@@ -74,6 +75,7 @@ OptimizationSettings OptimizationSettings::fromJson(const json& value) {
   for (const json& origin : value.at("inherited")) settings.inherited.push_back(Provenance::fromJson(origin));
   value.at("date").get_to(settings.date);
   value.at("version").get_to(settings.version);
+  settings.fingerprint = value.value("fingerprint", "");
   return settings;
 }
 

@@ -1,7 +1,9 @@
 #include "nonet/lab/reports/ball_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,7 +38,12 @@ BallFigure figure(const char* key, const char* what, const std::vector<Result>& 
   for (const Result& result : results) {
     if (counts(result)) sample.push_back(static_cast<double>(value(result)));
   }
-  return {key, what, estimate(sample), static_cast<int>(sample.size())};
+  const auto count = static_cast<int>(sample.size());
+  if constexpr (std::is_same_v<std::decay_t<decltype(value(results.front()))>, bool>) {
+    const auto hits = static_cast<std::size_t>(std::count(sample.begin(), sample.end(), 1.0));
+    return {key, what, estimateShare(hits, sample.size()), count};
+  }
+  return {key, what, estimate(sample), count};
 }
 
 template <class Result, class Value>

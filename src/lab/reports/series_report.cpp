@@ -14,6 +14,7 @@
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/match/statistics.h"
 
+#include "lab/common/plot.h"
 #include "lab/reports/field_drawing.h"
 
 namespace nonet::lab {
@@ -46,8 +47,8 @@ Games readGames(const std::string& folder) {
   Games games;
   std::ifstream result(folder + "/result.json");
   if (!result)
-    throw std::runtime_error(
-        fmt::format("{} holds no finished series: play one with nonet series --out", folder));
+    throw std::runtime_error(fmt::format(
+        "{} holds no finished series: play one with nonet series --out, or let it go on to its end", folder));
   games.result = json::parse(result);
   std::ifstream file(folder + "/matches.jsonl");
   for (std::string text; std::getline(file, text);) games.lines.push_back(json::parse(text));
@@ -55,19 +56,6 @@ Games readGames(const std::string& folder) {
   if (!games.lines.front().contains("statistics"))
     throw std::runtime_error(fmt::format("{}: its games were played without statistics", folder));
   return games;
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<')
-      safe += "&lt;";
-    else if (c == '&')
-      safe += "&amp;";
-    else
-      safe += c;
-  }
-  return safe;
 }
 
 // Bars upwards for A and downwards for B over a common axis; `labels` below each place.
@@ -128,32 +116,42 @@ std::string differences(const Games& games) {
   return bars("Games by goal difference", "goals of A minus goals of B", labels, values, {});
 }
 
-std::string headline(const Games& games) {
-  const json& r = games.result;
-  const double low = r.at("interval_95").at(0).get<double>();
-  const double high = r.at("interval_95").at(1).get<double>();
-  const double mean = r.at("difference_per_10_min").get<double>();
-  std::string html = fmt::format(
-      "<h1>{} against {}</h1><p><b style='color:{}'>A</b>: {}<br><b style='color:{}'>B</b>: {}</p>"
-      "<p>{} games of {:g} minutes: A won {}, tied {}, lost {}; goals {} : {}.<br>Goal difference per ten "
-      "minutes: "
-      "<b>{:+.2f}</b>, standard error {:.2f}, 95&nbsp;% [{:+.2f}, {:+.2f}].</p>",
-      escaped(r.at("name_a").get<std::string>()), escaped(r.at("name_b").get<std::string>()), kColorA,
-      escaped(r.at("a").get<std::string>()), kColorB, escaped(r.at("b").get<std::string>()),
-      r.at("games").get<int>(), r.at("minutes").get<double>(), r.at("wins").get<int>(),
-      r.at("ties").get<int>(), r.at("losses").get<int>(), r.at("goals_a").get<int>(),
-      r.at("goals_b").get<int>(), mean, r.at("standard_error").get<double>(), low, high);
+// The mean, and its interval where there is one, on an axis around zero.
+std::string differenceAxis(double mean, double low, double high) {
   const double reach = std::max({0.5, std::abs(low), std::abs(high)}) * 1.1;
   const auto x = [&](double value) { return 230.0 + value / reach * 210.0; };
-  html += fmt::format(
+  return fmt::format(
       "<svg viewBox='0 0 460 44' width='460'><line x1='20' x2='440' y1='18' y2='18' stroke='#bbb'/>"
       "<line x1='230' x2='230' y1='6' y2='30' stroke='#555'/><line x1='{:.1f}' x2='{:.1f}' y1='18' y2='18' "
       "stroke='{}' stroke-width='5'/><circle cx='{:.1f}' cy='18' r='5'/><text x='20' y='42'>{:+.2g}</text>"
       "<text x='222' y='42'>0</text><text x='415' y='42'>{:+.2g}</text></svg>\n",
       x(low), x(high), kColorA, x(mean), -reach, reach);
-  return html + fmt::format("<p><code>{}</code><br>{}, version {}, played in: {}</p>\n",
-                            escaped(r.at("command_line").get<std::string>()), r.at("date").get<std::string>(),
-                            r.at("version").get<std::string>(), r.at("place").get<std::string>());
+}
+
+std::string headline(const Games& games) {
+  const json& r = games.result;
+  const auto text = [&](const char* key) { return xmlText(r.at(key).get<std::string>()); };
+  const double mean = r.at("difference_per_10_min").get<double>();
+  std::string html = fmt::format(
+      "<h1>{} against {}</h1><p><b style='color:{}'>A</b>: {}<br><b style='color:{}'>B</b>: {}</p>"
+      "<p>{} games of {:g} minutes: A won {}, tied {}, lost {}; goals {} : {}.<br>Goal difference per ten "
+      "minutes: <b>{:+.2f}</b>",
+      text("name_a"), text("name_b"), kColorA, text("a"), kColorB, text("b"), r.at("games").get<int>(),
+      r.at("minutes").get<double>(), r.at("wins").get<int>(), r.at("ties").get<int>(),
+      r.at("losses").get<int>(), r.at("goals_a").get<int>(), r.at("goals_b").get<int>(), mean);
+  double low = mean;
+  double high = mean;
+  if (const json& interval = r.at("interval_95"); !interval.is_null()) {
+    low = interval.at(0).get<double>();
+    high = interval.at(1).get<double>();
+    html += fmt::format(", standard error {:.2f}, 95&nbsp;% [{:+.2f}, {:+.2f}]",
+                        r.at("standard_error").get<double>(), low, high);
+    if (r.value("stopped_early", false))
+      html += " (too narrow and too far out: the series ended because it had decided)";
+  }
+  html += ".</p>" + differenceAxis(mean, low, high);
+  return html + fmt::format("<p><code>{}</code><br>{}, version {}, played in: {}</p>\n", text("command_line"),
+                            text("date"), text("version"), text("place"));
 }
 
 std::string teamTable(const Games& games) {
@@ -292,7 +290,7 @@ std::string kickTable(const Games& games) {
       for (const auto& [outcome, count] : kind.outcomes)
         outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", outcome, count);
       html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{}</td></tr>\n",
-                          sideB ? "B" : "A", name.empty() ? "other" : escaped(name), kind.count,
+                          sideB ? "B" : "A", name.empty() ? "other" : xmlText(name), kind.count,
                           kind.distance / kind.count, outcomes);
     }
   }

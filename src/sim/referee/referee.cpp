@@ -91,6 +91,7 @@ void Referee::updateClock() {
 }
 
 void Referee::swapSides() {
+  fouls_.reset();  // while the records still belong to the same robots
   c_.game.swapSides();
   for (Player& player : c_.players) player.side = opponentOf(player.side);
   const auto swapToucher = [](Toucher& toucher) { toucher.side = opponentOf(toucher.side); };

@@ -215,7 +215,7 @@ void Fouls::thawJoints(bool all) {
       if (frozenAt[i] < 0.0F) continue;
       const float passed = c_.game.time() - frozenAt[i];
       if (all || passed >= frozen) c_.world.freezeJoint(player.robot, model::jointAt(i), false);
-      if (all || passed >= rest) frozenAt[i] = -1000.0F;
+      if (all || passed >= rest) frozenAt[i] = kNeverFrozen;
     }
   }
 }

@@ -29,8 +29,10 @@ asio::ip::tcp::acceptor listenOn(asio::io_context& io, const std::string& addres
       throw std::runtime_error(fmt::format(
           "port {} (for {}) is taken: is another server running? Choose another port", port, purpose));
     }
-    throw std::runtime_error(fmt::format("cannot listen on {} port {} (for {}): {}", address, port, purpose,
-                                         error.code().message()));
+    throw std::runtime_error(
+        fmt::format("cannot listen on {} port {} (for {}): {}; the address must be one of this machine, in "
+                    "numbers, such as 0.0.0.0",
+                    address, port, purpose, error.code().message()));
   }
 }
 

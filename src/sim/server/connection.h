@@ -41,7 +41,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   const std::string& reason() const { return reason_; }
   /// Closed by us because of what it sent.
   bool refused() const { return refused_; }
-  bool hasRest() const { return !rest_.empty(); }
   const std::string& peer() const { return peer_; }
   /// Of the peer, without its port.
   std::string address() const { return peer_.substr(0, peer_.rfind(':')); }

@@ -8,6 +8,7 @@ Monitors::Monitors(asio::io_context& io, Simulation& simulation, const std::stri
                    std::uint16_t port, const Admission& admission)
     : simulation_(simulation),
       acceptor_(listenOn(io, address, port, "monitors")),
+      acceptAgain_(io),
       admission_(admission),
       stream_(simulation) {
   accept();
@@ -32,6 +33,7 @@ void Monitors::accept() {
                               [&added] { return added.commands.size() >= kMaxQueuedMessages; });
     } else {
       spdlog::warn("server: could not accept a monitor: {}", error.message());
+      return acceptAgain_.start([this] { accept(); });
     }
     accept();
   });

@@ -13,6 +13,7 @@
 #include "nonet/sim/server/monitor.h"
 #include "nonet/sim/simulation.h"
 
+#include "sim/server/accept_pause.h"
 #include "sim/server/connection.h"
 
 namespace nonet::sim {
@@ -34,7 +35,10 @@ class Monitors {
   /// Forgets connections that are dead.
   void reap();
   void closeAll();
-  void stopAccepting() { acceptor_.close(); }
+  void stopAccepting() {
+    acceptAgain_.cancel();
+    acceptor_.close();
+  }
 
  private:
   struct Link {
@@ -47,6 +51,7 @@ class Monitors {
 
   Simulation& simulation_;
   asio::ip::tcp::acceptor acceptor_;
+  AcceptPause acceptAgain_;
   Admission admission_;
   std::vector<std::unique_ptr<Link>> links_;
   MonitorStream stream_;

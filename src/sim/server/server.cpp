@@ -22,6 +22,7 @@ Server::Implementation::Implementation(const Settings& settings, std::uint64_t s
       simulation(settings, s),
       work(asio::make_work_guard(io)),
       agentAcceptor(listenOn(io, given.address, given.agentPort, "agents")),
+      acceptAgain(io),
       admission(given.mostConnections, given.mostPerAddress),
       monitors(io, simulation, given.address, given.monitorPort,
                Admission(given.mostConnections, given.mostPerAddress)),
@@ -223,6 +224,7 @@ void Server::run() {
   }
   for (const auto& link : self.agents) link->connection->close();
   self.monitors.closeAll();
+  self.acceptAgain.cancel();
   self.agentAcceptor.close();
   self.monitors.stopAccepting();
   self.signals.cancel();

@@ -47,6 +47,7 @@ void Server::Implementation::acceptAgents() {
                               [] { return false; });
     } else {
       spdlog::warn("server: could not accept an agent: {}", error.message());
+      return acceptAgain.start([this] { acceptAgents(); });
     }
     acceptAgents();
   });

@@ -19,6 +19,7 @@
 #include "nonet/sim/server/monitor.h"
 #include "nonet/sim/server/server.h"
 
+#include "sim/server/accept_pause.h"
 #include "sim/server/connection.h"
 #include "sim/server/monitors.h"
 
@@ -81,6 +82,7 @@ struct Server::Implementation {
   asio::io_context io;
   asio::executor_work_guard<asio::io_context::executor_type> work;
   asio::ip::tcp::acceptor agentAcceptor;
+  AcceptPause acceptAgain;
   Admission admission;
   Monitors monitors;
   asio::signal_set signals;

@@ -25,10 +25,11 @@ std::optional<Action> beforeKickOff(const Situation& s) {
   const TeamParameters& p = s.parameters;
   const Pose2 place = kickOffPose(game.unum, ownKickOffNext(game), s.world.field, p.setPlay);
   // Once at the beginning of the phase; again if we ended up elsewhere (pushed, or the first one came too
-  // early).
+  // early), or lie there: a beam is the fastest way up.
   const double distance = (s.world.self.X_FR.translation - place.translation).norm();
-  const bool again =
-      s.world.self.localized && distance > p.beam.elsewhere && s.world.time - s.lastBeam > p.beam.again;
+  const bool wrong =
+      world::isFallen(s.world.body.posture) || (s.world.self.localized && distance > p.beam.elsewhere);
+  const bool again = wrong && s.world.time - s.lastBeam > p.beam.again;
   if (s.lastBeam >= game.phaseSince && !again) return action;
   action.beam = place;
   action.reason.detail = "beam";

@@ -1,4 +1,5 @@
 #include "nonet/team/behaviors.h"
+#include "nonet/team/goalie.h"
 #include "nonet/team/navigation.h"
 #include "nonet/team/own_area.h"
 
@@ -31,9 +32,11 @@ motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace) {
 }
 
 std::optional<Action> support(const Situation& s) {
-  // On the ball, but another plays it: ready beside that one.
-  if (s.role == Role::OnBall)
-    return Action(takePlace(s, s.ball() + Vector2(s.parameters.onBallRoom, 0.0)), "beside the ball");
+  // On the ball, but the goalie plays it: ready beside it, and out of the way of the clearance.
+  if (s.role == Role::OnBall) {
+    const double away = clearanceTarget(s).y() > 0.0 ? -1.0 : 1.0;
+    return Action(takePlace(s, s.ball() + Vector2(0.0, away * s.parameters.onBallRoom)), "beside the ball");
+  }
   return Action(takePlace(s, rolePlace(s)), "place of the role");
 }
 

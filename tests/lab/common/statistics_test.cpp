@@ -1,11 +1,6 @@
 #include "nonet/lab/common/statistics.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <gtest/gtest.h>
-
-#include "nonet/math/random.h"
 
 namespace nonet::lab {
 namespace {
@@ -19,15 +14,22 @@ TEST(Statistics, EstimatesMeanAndInterval) {
   EXPECT_EQ(estimate({3.0}).ci95, 0.0);
 }
 
-TEST(Statistics, QuantileIsTheNearestRank) {
-  Random random(1);
-  std::vector<double> sample;
-  for (int i = 0; i < 201; ++i) sample.push_back(random.normal());
-  std::vector<double> sorted = sample;
-  std::sort(sorted.begin(), sorted.end());
-  for (const double share : {0.0, 0.05, 0.5, 0.95, 1.0})
-    EXPECT_EQ(quantile(sample, share), sorted[static_cast<std::size_t>(std::lround(200.0 * share))]);
+TEST(Statistics, QuantileIsAValueOfTheSample) {
+  const std::vector<double> ten = {70.0, 20.0, 100.0, 10.0, 40.0, 60.0, 30.0, 90.0, 50.0, 80.0};
+  EXPECT_EQ(quantile(ten, 0.0), 10.0);
+  EXPECT_EQ(quantile(ten, 0.1), 20.0) << "a tenth of the way to the largest is nearest to the second";
+  EXPECT_EQ(quantile(ten, 0.4), 50.0);
+  EXPECT_EQ(quantile(ten, 1.0), 100.0);
+  EXPECT_EQ(quantile({3.0, 1.0, 2.0}, 0.5), 2.0);
   EXPECT_EQ(quantile({}, 0.5), 0.0);
+}
+
+// By hand: 10 of 10 and 0 of 10 leave 0.722 and 0.278; 50 of 100 lie in 0.404 to 0.596.
+TEST(Statistics, AShareHasAnIntervalAlsoAtItsEnds) {
+  EXPECT_NEAR(estimateShare(10, 10).mean - estimateShare(10, 10).ci95, 0.722, 5e-4);
+  EXPECT_NEAR(estimateShare(0, 10).ci95, 0.278, 5e-4);
+  EXPECT_NEAR(estimateShare(50, 100).ci95, 0.096, 5e-4);
+  EXPECT_EQ(estimateShare(0, 0).ci95, 0.0);
 }
 
 }  // namespace

@@ -67,6 +67,32 @@ TEST(Match, IsPlayedToTheEnd) {
   EXPECT_NE(result.toText().find("Guests"), std::string::npos);
 }
 
+// The score belongs to a team, not to a side.
+TEST(Match, GoalsStayWithTheirTeamWhenSidesChange) {
+  MatchSettings settings;
+  sim::Settings server;
+  server.changeSidesInSecondHalf = true;
+  server.ruleHalfTime = 1.0;
+  sim::Simulation simulation(server, 1);
+  for (const TeamSettings* team : {&settings.left, &settings.right}) {
+    protocol::InitEffector init;
+    init.unum = 1;
+    init.team.assign(team->name);
+    simulation.enter({}, init);
+    simulation.step();
+  }
+  simulation.trainer("(score (left 2)(right 1))");
+  MatchWatcher watcher(settings);
+  simulation.trainer("(playMode PlayOn)");
+  for (int i = 0; i < 100; ++i) {
+    simulation.step();
+    watcher.update(simulation);
+    EXPECT_EQ(watcher.result().scoreLeft, 2) << i;
+    EXPECT_EQ(watcher.result().scoreRight, 1) << i;
+  }
+  EXPECT_EQ(std::string_view(simulation.match().teamLeft), settings.right.name) << "they have changed sides";
+}
+
 TEST(Match, SameSeedSameMatchOnAnyNumberOfThreads) {
   const MatchResult first = playInProcess(shortMatch(5), NONET_SOURCE_DIR, 1);
   const MatchResult second = playInProcess(shortMatch(5), NONET_SOURCE_DIR, 2);

@@ -175,6 +175,61 @@ TEST(Series, OtherGamesAreNotMixedIn) {
   EXPECT_THROW(Series(folder.path(), settings), std::runtime_error);
 }
 
+// Who forgets an option must not lose what was played.
+TEST(Series, FewerPairsOrAnotherTestLeaveWhatIsThere) {
+  const Folder folder("fewer");
+  const SeriesSettings ten = settingsOf(10);
+  {
+    Series series(folder.path(), ten);
+    ASSERT_TRUE(playSeries(series, 2, kFake, kGoOn));
+    series.finish();
+  }
+  const std::string before = folder.text("matches.jsonl");
+  EXPECT_THROW(Series(folder.path(), settingsOf(2)), std::runtime_error);
+  SeriesSettings tested = ten;
+  tested.sequential = SequentialBounds{-9.0, -8.0};  // decided after the fewest pairs
+  EXPECT_THROW(Series(folder.path(), tested), std::runtime_error);
+  EXPECT_EQ(folder.text("matches.jsonl"), before);
+  EXPECT_FALSE(folder.text("result.json").empty());
+  EXPECT_EQ(Series(folder.path(), settingsOf(12)).open().size(), 4U);
+  EXPECT_TRUE(folder.text("result.json").empty()) << "it tells of ten pairs";
+}
+
+// Somebody edits a side's file while the series runs.
+TEST(Series, AGameDuringWhichASideChangedDoesNotCount) {
+  const Folder data("changed_data");
+  const Folder folder("changed");
+  for (const char* name : {"/params", "/skills"}) fs::create_directories(data.path() + name);
+  SeriesSettings settings = settingsOf(5);
+  settings.a.dataFolder = data.path();
+  takeFingerprints(settings, "");
+  Series series(folder.path(), settings);
+  const PlayGame play = [&](const SeriesGame& game, const std::function<bool(double)>&) {
+    if (game.pair == 2) std::ofstream(data.path() + "/params/type0.toml") << "x = 1";
+    return fakeGame(game);
+  };
+  EXPECT_THROW(playSeries(series, 1, unlessChanged(settings, "", play), kGoOn), std::runtime_error);
+  EXPECT_EQ(series.played(), 2);
+}
+
+TEST(Series, TheIntervalOfOnePairIsNotKnown) {
+  SeriesResult result;
+  result.pairs = {1.0};
+  result.difference = summarizePairs(result.pairs);
+  EXPECT_TRUE(result.differenceJson().at("interval_95").is_null());
+  EXPECT_TRUE(result.differenceJson().at("standard_error").is_null());
+}
+
+TEST(Series, OnlyThisProgramPlaysInThisProcess) {
+  SeriesSettings settings = settingsOf(1);
+  settings.place.clear();
+  EXPECT_EQ(placeFor(settings), "process");
+  settings.b.executable = "/bin/sh";
+  EXPECT_EQ(placeFor(settings), "tcp");
+  settings.place = "process";
+  EXPECT_THROW(placeFor(settings), std::runtime_error);
+}
+
 TEST(Series, AChangedSideHasAnotherFingerprint) {
   const Folder folder("fingerprint");
   for (const char* name : {"/params", "/skills"}) fs::create_directories(folder.path() + name);
@@ -248,7 +303,7 @@ TEST(Series, ATeamAgainstItselfInThisProcess) {
   settings.kickOffWait = 0.5;
   const Folder folder("itself");
   Series series(folder.path(), settings);
-  writeOverlays(settings, folder.path(), NONET_SOURCE_DIR);
+  writeOverlays(settings, folder.path());
   EXPECT_TRUE(playSeries(series, 2, inProcessGames(settings, folder.path(), NONET_SOURCE_DIR), kGoOn));
   const SeriesResult result = series.finish();
   EXPECT_EQ(result.games, 4);
@@ -256,15 +311,23 @@ TEST(Series, ATeamAgainstItselfInThisProcess) {
   EXPECT_EQ(result.difference.standardError, 0.0);
 }
 
-// An unknown parameter is an error before anything is played.
-TEST(Series, OverlaysAreTriedBeforeTheFirstGame) {
-  const Folder folder("overlay");
-  fs::create_directories(folder.path());
+// An unknown parameter is an error before anything is played or written.
+TEST(Series, SidesAreTriedBeforeTheFirstGame) {
+  SideSettings side;
+  checkSide(side, NONET_SOURCE_DIR);
+  side.assignments = {"team.noSuchThing=1"};
+  EXPECT_THROW(checkSide(side, NONET_SOURCE_DIR), std::runtime_error);
+  side.assignments = {"nonsense"};
+  EXPECT_THROW(checkSide(side, NONET_SOURCE_DIR), std::runtime_error);
+}
+
+// Whoever plays 30 s because a setting said so and was ignored plays 10 minutes.
+TEST(Series, SettingsThatAMatchDecidesAreRefused) {
   SeriesSettings settings = settingsOf(1);
-  settings.a.assignments = {"team.noSuchThing=1"};
-  EXPECT_THROW(writeOverlays(settings, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
-  settings.a.assignments = {"nonsense"};
-  EXPECT_THROW(writeOverlays(settings, folder.path(), NONET_SOURCE_DIR), std::runtime_error);
+  settings.settingAssignments = {"RuleHalfTime=15"};
+  EXPECT_THROW(matchOf(settings, gameOf(settings, 0), ""), std::runtime_error);
+  settings.settingAssignments = {"SayLossShare=0.25"};
+  EXPECT_EQ(matchOf(settings, gameOf(settings, 0), "").settings.sayLossShare, 0.25);
 }
 
 }  // namespace

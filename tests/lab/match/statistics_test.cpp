@@ -160,8 +160,17 @@ TEST_P(Statistics, APassToTheOpponentIsLost) {
 }
 
 TEST_P(Statistics, RunningAfterTheOwnBallIsNoPass) {
-  kickTo(s, 0, 5);
+  s.robot(0, 5, -0.2, 0.0);
+  s.robot(1, 9, -10.0, 8.0);
+  s.ballAt(0.0, 0.0);
+  s.run(1.0);
+  s.velocity = Vector2(4.0, 0.0);
+  s.run(0.6);
   s.robot(0, 5, 3.2, 0.0);
+  while (s.frame.p_WBall.x() < 3.0) s.run(0.2);
+  s.velocity = Vector2(0.0, -0.6);
+  s.run(1.6);
+  EXPECT_EQ(s.statistics.team(0).kicks.size(), 1U);
   EXPECT_EQ(s.statistics.team(0).passesTried, 0);
 }
 

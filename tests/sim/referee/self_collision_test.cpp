@@ -80,6 +80,19 @@ TEST(SelfCollision, JointsAreReleasedWhenTheGameIsPaused) {
   EXPECT_FALSE(s.frozen(model::JointId::RLeg1));
 }
 
+TEST(SelfCollision, JointsAreReleasedAtHalfTimeThoughSidesChange) {
+  Settings settings = shortHalves(1000.0);
+  settings.changeSidesInSecondHalf = true;
+  SelfCollision s(settings);
+  crossLegs(s, s.player);
+  ASSERT_TRUE(s.frozen(model::JointId::RLeg1));
+  s.command("(time 999.99)");
+  for (int i = 0; i < 3; ++i) s.step();
+  ASSERT_EQ(s.mode(), PlayMode::BeforeKickOff);
+  ASSERT_EQ(s.info(s.player).side, TeamSide::Right);
+  EXPECT_FALSE(s.frozen(model::JointId::RLeg1));
+}
+
 TEST(SelfCollision, CanBePunishedByRemovalInstead) {
   Settings settings = quietSettings();
   settings.selfCollisionBeamPenalty = true;

@@ -6,7 +6,7 @@
 namespace nonet::lab {
 
 /// Writes the whole text to a new file beside `path`, then renames it: readers see the old or the new one.
-/// Throws std::runtime_error that names the file if it cannot be written.
+/// Makes the folder if there is none. Throws std::runtime_error that names the file if it cannot be written.
 void writeAtomically(const std::string& path, const std::string& text);
 
 }  // namespace nonet::lab

@@ -1,6 +1,7 @@
 // Means, intervals and quantiles of samples.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace nonet::lab {
@@ -17,7 +18,12 @@ struct Estimate {
 };
 Estimate estimate(const std::vector<double>& sample);
 
-/// The value of the sample that this share of it does not exceed (nearest rank); 0 for an empty one.
+/// The same of a share, also where all or none hit: from the share to the farther end of the score interval
+/// [Wilson 1927]; 0 without trials.
+Estimate estimateShare(std::size_t hits, std::size_t trials);
+
+/// The value of the sample whose place is nearest to this share of the way from the smallest to the largest;
+/// 0 for an empty one.
 double quantile(std::vector<double> sample, double share);
 
 }  // namespace nonet::lab

@@ -44,6 +44,10 @@ std::string matchTitle(const MatchSettings& match);
 /// The settings of a match as chosen: half time, automatic kick-off, names of the teams.
 sim::Settings simulationSettings(const MatchSettings& match);
 
+/// One of the server's settings, Name=Value. Throws std::runtime_error for those that simulationSettings()
+/// overwrites, with the option that sets them.
+void setServerSetting(sim::Settings& settings, const std::string& assignment);
+
 /// One robot's agent as chosen.
 agent::AgentChoice agentChoice(const MatchSettings& match, bool rightTeam, int unum);
 

@@ -41,8 +41,8 @@ SideSettings sideFromWord(const std::string& word, const std::string& dataFolder
 /// Names of the variants there, in alphabetical order.
 std::vector<std::string> variantsIn(const std::string& dataFolder);
 
-/// A hash of what decides how the side plays, as far as files tell: the executable, params/ and skills/, the
-/// parameter files. `dataFolder`: of this program.
+/// A hash of what decides how the side plays, as far as files tell: the executable, its params/ and skills/,
+/// the parameter files; empty for a command. `dataFolder`: of this program.
 std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder);
 
 struct SeriesSettings {
@@ -55,6 +55,7 @@ struct SeriesSettings {
   int players = 9;                              // a side
   std::vector<std::string> settingFiles;        // of the server
   std::vector<std::string> settingAssignments;  // of the server, Name=Value
+  std::string settingsFingerprint;              // of what the files hold (takeFingerprints())
   std::optional<SequentialBounds> sequential;
   bool monitorLogs = false;  // keep the monitor stream of each game in the folder, game-PAIR-GAME.mon
   // "process"; "tcp": embedded server in lock-step, "realtime": by the clock; or "HOST:PORT:MONITORPORT".
@@ -74,6 +75,13 @@ struct SeriesSettings {
   double resolution() const { return 10.0 / (2.0 * minutes); }
 };
 
+/// Where the games are played: what `place` says; empty: in this process if that can be. Throws
+/// std::runtime_error: in this process, but a side is another program.
+std::string placeFor(const SeriesSettings& settings);
+
+/// Those of both sides and of the server's settings, as the files are now.
+void takeFingerprints(SeriesSettings& settings, const std::string& dataFolder);
+
 /// One game of a series. In the first of a pair A plays on the left.
 struct SeriesGame {
   int pair = 1;  // from 1
@@ -89,9 +97,10 @@ SeriesGame gameOf(const SeriesSettings& settings,
 MatchSettings matchOf(const SeriesSettings& settings, const SeriesGame& game,
                       const std::string& overlayFolder);
 
-/// Writes the assignments of both sides as parameter files into the folder and tries all parameters of sides
-/// that run this program, so that an error shows before the first game. Throws.
-void writeOverlays(const SeriesSettings& settings, const std::string& overlayFolder,
-                   const std::string& dataFolder);
+/// Tries the parameters of a side that runs this program, before anything is written. Throws.
+void checkSide(const SideSettings& side, const std::string& dataFolder);
+
+/// Writes the assignments of both sides as parameter files into the folder. Throws.
+void writeOverlays(const SeriesSettings& settings, const std::string& overlayFolder);
 
 }  // namespace nonet::lab

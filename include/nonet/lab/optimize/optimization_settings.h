@@ -35,6 +35,8 @@ struct OptimizationSettings {
   std::vector<Provenance> inherited;  // of the files that `parameters` came from
   std::string date;                   // of creation, for the provenance
   std::string version;                // of the program that created it
+  std::string fingerprint;  // of that program, params/ and skills/ (fingerprintOf()): what opponents and
+                            // skills of the trials come from; empty: not known
 
   nlohmann::json toJson() const;
   /// Throws nlohmann::json::exception or std::runtime_error.

@@ -41,7 +41,7 @@ class AgentSensors {
 
   /// Fills gyro, accelerometer, joints, forces and vision of `percept` and appends their entries to its
   /// order, in the order of the server's messages. Time, game state and what was heard are the caller's,
-  /// before. `random` is the simulation's one generator: noise is drawn object by object.
+  /// before. `random` is the agent's own generator: noise is drawn object by object.
   void fill(const World& world, RobotHandle self, const SensorContext& context, Random& random,
             protocol::Percept& percept);
 
