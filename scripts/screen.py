@@ -18,6 +18,7 @@ changes without any effect one or two show two standard errors, so what is found
 command. Games are played on the quick stepper unless --exact is given."""
 import argparse
 import concurrent.futures
+import hashlib
 import json
 import math
 import os
@@ -33,7 +34,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 def read_changes(path):
     """{name: [assignment, ...]}; ends the program at a line that cannot be used."""
     changes, owner = {}, {}
-    for number, line in enumerate(pathlib.Path(path).read_text().splitlines(), 1):
+    try:
+        text = pathlib.Path(path).read_text()
+    except OSError as trouble:
+        sys.exit(f"{path}: {trouble.strerror}")
+    for number, line in enumerate(text.splitlines(), 1):
         name, *assignments = line.split("#")[0].split() or [None]
         if name is None:
             continue
@@ -89,6 +94,17 @@ def effects(games, names, opponents):
     return [(n, fit[i], math.sqrt(variance * inverse[i][i])) for i, n in enumerate(names, len(opponents))]
 
 
+def fingerprint(program):
+    """Of the program and of what it plays with, so that no screening mixes two."""
+    data = pathlib.Path(os.environ.get("NONET_DATA") or ROOT)
+    files = [pathlib.Path(program)]
+    files += sorted(f for folder in ("params", "skills") for f in (data / folder).iterdir() if f.is_file())
+    try:
+        return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
+    except OSError as trouble:
+        sys.exit(f"cannot read {trouble.filename}: name the program with --nonet, its data with NONET_DATA")
+
+
 def play(pair, made, opponent, changes, settings):
     """One pair of games by `nonet series`: its record."""
     folder = settings.out / "pairs" / str(pair)
@@ -124,7 +140,7 @@ def play_all(changes, settings, done):
                 with (settings.out / "pairs.jsonl").open("a") as file:
                     file.write(record + "\n")
                 print(f"{number} of {len(missing)} pairs", file=sys.stderr, flush=True)
-        except (RuntimeError, KeyboardInterrupt) as trouble:
+        except (RuntimeError, OSError, KeyboardInterrupt) as trouble:
             stop.set()
             sys.exit(f"stopped: {trouble or 'interrupted'}; the same command goes on")
 
@@ -140,13 +156,15 @@ def read_records(path):
 
 
 def table(records, names):
-    games = [(r["against"], set(r["changes"]), 10 / r["minutes"] * (a - b)) for r in records for a, b in r["goals"]]
+    # A pair is what was drawn: its two games share seed and changes.
+    games = [(r["against"], set(r["changes"]), 10 / r["minutes"] * sum(a - b for a, b in r["goals"]) / len(r["goals"]))
+             for r in records]
     opponents = sorted({g[0] for g in games})
     found = effects(games, names, opponents)
-    lines = [f"{len(games)} games; goals per ten minutes that each change adds, standard error, their ratio"]
+    lines = [f"{len(games)} pairs of games; goals per ten minutes that each change adds, standard error, their ratio"]
     for name, effect, error in sorted(found, key=lambda e: -e[1] / max(e[2], 1e-9)):
         made = sum(name in g[1] for g in games)
-        lines.append(f"{name:16} {effect:+6.2f} {error:5.2f} {effect / max(error, 1e-9):+5.1f}   in {made} games")
+        lines.append(f"{name:16} {effect:+6.2f} {error:5.2f} {effect / max(error, 1e-9):+5.1f}   in {made} pairs")
     return "\n".join(lines)
 
 
@@ -179,11 +197,12 @@ def self_test():
 def screen(settings):
     changes = read_changes(settings.changes)
     plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
-            "exact": settings.exact}
+            "exact": settings.exact, "fingerprint": fingerprint(settings.nonet)}
     settings.out.mkdir(parents=True, exist_ok=True)
     kept = settings.out / "plan.json"
     if kept.exists() and json.loads(kept.read_text()) != plan:
-        sys.exit(f"{settings.out} holds another screening; name another --out, or the same changes and options")
+        sys.exit(f"{settings.out} holds another screening (other changes or options, or the program, params/ or skills/ "
+                 "changed since); name another --out")
     kept.write_text(json.dumps(plan, indent=1) + "\n")
     records = settings.out / "pairs.jsonl"
     done = {record["pair"] for record in read_records(records)}

@@ -16,9 +16,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::array<const char*, 11> kRoleNames = {
-    "on ball",      "stopper",       "back left", "back right", "wing left", "wing right",
-    "forward left", "forward right", "supporter", "sweeper",    "goalie"};
 constexpr std::array<const char*, 20> kPhaseNames = {"before kick-off",
                                                      "own kick-off",
                                                      "their kick-off",
@@ -193,7 +190,7 @@ ordered_json traceOf(const Agent& agent) {
       {"left", world.game.side != protocol::TeamSide::Right},
       {"side", ownGoalLeft ? 1 : -1},
       {"phase", kPhaseNames.at(static_cast<std::size_t>(world.game.phase))},
-      {"role", kRoleNames.at(static_cast<std::size_t>(agent.role()))},
+      {"role", team::roleName(agent.role())},
       {"request", std::visit(RequestWriter(self.X_FR), agent.action().motion)},
       {"head", headName(agent.action())},
       {"pose", pose(self.X_FR)},

@@ -92,6 +92,13 @@ Places usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
 
 }  // namespace
 
+std::string_view roleName(Role role) {
+  constexpr std::array<std::string_view, 11> kNames = {
+      "on ball",      "stopper",       "back left", "back right", "wing left", "wing right",
+      "forward left", "forward right", "supporter", "sweeper",    "goalie"};
+  return kNames.at(static_cast<std::size_t>(role));
+}
+
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
                        const FormationParameters& parameters, const VariantParameters& variant,
                        std::span<const world::PlayerState> opponents) {

@@ -13,6 +13,25 @@
 
 namespace nonet::app {
 
+/// A port on which nobody listens, and which nobody else can get meanwhile.
+class ClosedPort {
+ public:
+  ClosedPort() {
+    acceptor_.open(asio::ip::tcp::v4());
+    acceptor_.bind({asio::ip::address_v4::loopback(), 0});
+  }
+  int port() const { return acceptor_.local_endpoint().port(); }
+  /// Now somebody does: the server has come. Returns when a client has, and closes that connection.
+  void acceptAndClose() {
+    acceptor_.listen();
+    acceptor_.accept().close();
+  }
+
+ private:
+  asio::io_context io_;
+  asio::ip::tcp::acceptor acceptor_{io_};
+};
+
 class FakeServer {
  public:
   FakeServer() : acceptor_(io_, {asio::ip::address_v4::loopback(), 0}), socket_(io_) {}

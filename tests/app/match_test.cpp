@@ -12,6 +12,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "app/fake_server.h"
 #include "app/program.h"
 
 namespace nonet::app {
@@ -131,14 +132,35 @@ TEST_F(MatchCommand, OneTeamMayPlayAlone) {
   EXPECT_EQ(result["players"].size(), 2U);
 }
 
-TEST_F(MatchCommand, PlayWithoutServerEndsWithTwo) {
-  asio::io_context io;
-  int port = 0;
-  {
-    const asio::ip::tcp::acceptor taken(io, {asio::ip::address_v4::loopback(), 0});
-    port = taken.local_endpoint().port();
+TEST_F(MatchCommand, WhatARobotThoughtIsExplainedFromItsLogs) {
+  Program match({"match", "--players", "2", "--minutes", "0.05", "--kick-off-wait", "0.5", "--logs",
+                 file("logs"), "--json", file("m.json")},
+                file("match.txt"));
+  ASSERT_EQ(match.wait(), 0) << match.output();
+  Program one({"explain", file("logs"), "--team", "Nonet", "--unum", "2", "--at", "0.5"},
+              file("explain.txt"));
+  EXPECT_EQ(one.wait(), 0) << one.output();
+  EXPECT_NE(one.output().find("Nonet 2 at 0.5"), std::string::npos) << one.output();
+}
+
+// On an empty field nothing happens; who asked for a match must hear of it.
+TEST_F(MatchCommand, SaysWhoWasRefused) {
+  for (const bool inProcess : {true, false}) {
+    std::vector<std::string> arguments = {
+        "match", "--players",           "2",      "--minutes",   "0.02", "--kick-off-wait", "0.5",
+        "--set", "MaxRobotTypeCount=0", "--json", file("m.json")};
+    if (inProcess) arguments.emplace_back("--in-process");
+    Program program(arguments, file("refused.txt"));
+    EXPECT_EQ(program.wait(), 1) << inProcess;
+    EXPECT_NE(program.output().find(inProcess ? "refused by the server" : "the server did not take"),
+              std::string::npos)
+        << program.output();
   }
-  Program program({"play", "--port", std::to_string(port), "--wait", "0.2"}, file("play.txt"));
+}
+
+TEST_F(MatchCommand, PlayWithoutServerEndsWithTwo) {
+  const ClosedPort nobody;
+  Program program({"play", "--port", std::to_string(nobody.port()), "--wait", "0.2"}, file("play.txt"));
   EXPECT_EQ(program.wait(), 2);
   EXPECT_NE(program.output().find("no server"), std::string::npos);
 }

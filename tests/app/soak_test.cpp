@@ -104,7 +104,8 @@ TEST(Soak, OtherOptionsAreAnotherSoak) {
     Program program({"soak", "--matches", "1", "--minutes", minutes, "--kick-off-wait", "0.3", "--players",
                      "2", "--eleven-share", "0", "--realtime-share", "0", "--out", folder.file("out")},
                     folder.file("soak.txt"));
-    return std::pair(program.wait(), program.output());
+    const int code = program.wait();
+    return std::pair(code, program.output());
   };
   EXPECT_EQ(soak("0.02").first, 0);
   const auto [code, output] = soak("0.03");

@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "nonet/config/assignment.h"
 #include "nonet/config/nearest.h"
@@ -260,7 +261,8 @@ TEST(Parameters, DifferenceHoldsOnlyWhatDiffers) {
 }
 
 TEST(Parameters, ReadsFilesAndNamesThem) {
-  const std::string path = testing::TempDir() + "nonet_parameters_test.toml";
+  const std::string path =
+      testing::TempDir() + "nonet_parameters_test_" + std::to_string(::getpid()) + ".toml";
   std::ofstream(path) << "top = 0.25\n";
   Whole parameters;
   overlayFile(parameters, path);

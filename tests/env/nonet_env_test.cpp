@@ -14,6 +14,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "nonet/agent/agent_setup.h"
 #include "nonet/lab/env/env.h"
@@ -251,7 +252,7 @@ TEST(NonetEnv, RefusesWrongOptions) {
 
 TEST(NonetEnv, RefusesAFolderWithoutItsContents) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(testing::TempDir()) / "nonet_env_empty";
+  const fs::path folder = fs::path(testing::TempDir()) / ("nonet_env_empty_" + std::to_string(::getpid()));
   fs::create_directories(folder / "params");
   fs::create_directories(folder / "skills");
   nonet_env_options wanted = options("run", 1, 1);

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "nonet/math/angle.h"
 #include "nonet/math/random.h"
@@ -242,7 +243,8 @@ TEST(SkillFormat, NormalisesAndKeepsCommentsAndMeaning) {
 }
 
 TEST(SkillFolder, AFileThatCannotBeReadIsAnErrorThatNamesIt) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "nonet_skills_unreadable";
+  const auto folder =
+      std::filesystem::path(testing::TempDir()) / ("nonet_skills_unreadable_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder / "broken.skl");  // a folder in the place of a file
   try {
     skillTexts(folder.string());

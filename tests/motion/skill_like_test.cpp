@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "nonet/math/angle.h"
 #include "nonet/motion/skill_language.h"
@@ -202,7 +203,7 @@ TEST(SkillLike, IsFormatted) {
 
 // In a folder: declared under its own name, overlaid under its own name, and played with that.
 TEST(SkillLike, LibrariesReadItBeforeOrAfterTheOther) {
-  const fs::path folder = fs::path(testing::TempDir()) / "nonet_skill_like";
+  const fs::path folder = fs::path(testing::TempDir()) / ("nonet_skill_like_" + std::to_string(::getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   std::ofstream(folder / "base.skl") << kBase;

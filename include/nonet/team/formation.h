@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "nonet/math/pose2.h"
 #include "nonet/team/parameters.h"
@@ -26,6 +27,8 @@ enum class Role : std::uint8_t {
   Sweeper,
   Goalie,
 };
+
+std::string_view roleName(Role role);  // "on ball", "back left", ...
 
 inline constexpr int kFieldRoles = 10;  // all but the goalie's
 

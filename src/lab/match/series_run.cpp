@@ -27,14 +27,6 @@ double processorTime() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-std::string_view roleName(team::Role role) {
-  constexpr std::array<std::string_view, 11> kNames = {
-      "on ball",      "stopper",       "back left", "back right", "wing left", "wing right",
-      "forward left", "forward right", "supporter", "sweeper",    "goalie"};
-  const auto i = static_cast<std::size_t>(role);
-  return i < kNames.size() ? kNames[i] : "other";
-}
-
 // Its agents would be started from another file than the one that runs.
 bool programWasReplaced() {
   std::error_code error;
@@ -187,7 +179,7 @@ PlayGame inProcessGames(const SeriesSettings& settings, const std::string& overl
         std::array<int, 2> score{};
         MatchObservers observers;
         observers.afterThought = [&](const Thought& thought) {
-          frames.setRole(thought.handle, roleName(thought.agent.role()));
+          frames.setRole(thought.handle, team::roleName(thought.agent.role()));
           frames.setKick(thought.handle, thought.agent.kick());
         };
         observers.afterCycle = [&](const sim::Simulation& simulation, const MatchWatcher& watcher) {

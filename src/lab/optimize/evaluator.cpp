@@ -1,10 +1,9 @@
 #include "nonet/lab/optimize/evaluator.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
 #include <thread>
+
+#include "lab/common/parallel.h"
 
 namespace nonet::lab {
 
@@ -21,27 +20,10 @@ class ThreadEvaluator final : public Evaluator {
 
   std::vector<double> evaluate(std::span<const Job> jobs) override {
     std::vector<double> values(jobs.size());
-    std::atomic<std::size_t> next{0};
-    std::exception_ptr failure;
-    std::mutex failureMutex;
-    const auto work = [&] {
-      for (std::size_t i = next++; i < jobs.size(); i = next++) {
-        try {
-          values[i] = objective_(jobs[i]);
-        } catch (...) {
-          const std::scoped_lock lock(failureMutex);
-          if (!failure) failure = std::current_exception();
-          next = jobs.size();
-        }
-      }
-    };
-    {
-      std::vector<std::jthread> pool;
-      const std::size_t helpers = std::min<std::size_t>(static_cast<std::size_t>(threads_), jobs.size());
-      for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(work);
-      work();
-    }
-    if (failure) std::rethrow_exception(failure);
+    inParallel(static_cast<int>(jobs.size()), threads_, [&](int i) {
+      const auto job = static_cast<std::size_t>(i);
+      values[job] = objective_(jobs[job]);
+    });
     return values;
   }
 

@@ -264,15 +264,25 @@ nlohmann::ordered_json toJson(const std::optional<Quantiles>& error, double scal
   return {{"count", error->count}, {"median", error->median * scale}, {"p95", error->p95 * scale}};
 }
 
+// What stands in a file is the file's fault, whatever it is.
+agent::AgentSettings fromHeader(const protocol::LogHeader& header, const std::string& dataFolder,
+                                const std::string& path) {
+  try {
+    return agent::agentFromLog(header, dataFolder, path);
+  } catch (const config::ParameterError& error) {
+    throw protocol::LogError(error.what());
+  }
+}
+
 agent::AgentSettings recordedAgent(const std::string& path, const ReplaySettings& settings) {
   protocol::LogReader reader(path);
   LogLine line;
   if (reader.header()) {
     if (settings.unum || settings.team || settings.robotType) {
-      throw protocol::LogError(
+      throw std::runtime_error(
           path + ": --unum, --team and --type are for foreign logs; our own say who recorded them");
     }
-    agent::AgentSettings agentSettings = agent::agentFromLog(*reader.header(), settings.dataFolder, path);
+    agent::AgentSettings agentSettings = fromHeader(*reader.header(), settings.dataFolder, path);
     while (reader.next(line) && line.kind == LogLine::Kind::Comment) {
       if (const auto start = agent::startFromComment(line.text)) agentSettings.startPose = start;
     }

@@ -21,16 +21,12 @@ constexpr double kPassFrom = 3.0;     // m
 constexpr double kPassAside = 0.4;    // m
 constexpr double kPassBefore = 1.0;   // m before the robot, where the speed is said
 
-Vector2 unit(double direction) {
-  return {std::cos(direction), std::sin(direction)};
-}
-
 BallScene onPath(const Pose2& start, const BallPath& path) {
   const Vector2 first = path.corners[1] - path.corners[0];
   const double heading = directionOf(first);
   BallScene scene;
   scene.situation.ball = start.translation;
-  scene.start = Pose2(start.translation - kDribbleFrom * unit(heading), heading);
+  scene.start = Pose2(start.translation - kDribbleFrom * unitVector(heading), heading);
   scene.target = path.corners.back();
   scene.path = path;
   return scene;
@@ -100,8 +96,8 @@ BallScene passScene(Random& random) {
   scene.start = Pose2(x, y, wrapAngle(from + random.uniform(-0.3, 0.3)));
   scene.target = Vector2(15.0, 0.0);
   const Vector2 place(x, y);
-  scene.situation.ball = place + kPassFrom * unit(from);
-  const Vector2 aim = place + scene.aside * unit(from + 0.5 * kPi);
+  scene.situation.ball = place + kPassFrom * unitVector(from);
+  const Vector2 aim = place + scene.aside * unitVector(from + 0.5 * kPi);
   const double first = scene.speed + world::kRollDecay * (kPassFrom - kPassBefore);
   scene.situation.ballVelocity = first * (aim - scene.situation.ball).normalized();
   return scene;

@@ -72,10 +72,7 @@ class RunFolder : public testing::Test {
 TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
   const std::string straight = root_ + "/straight";
   auto whole = OptimizationRun::create(straight, settings(), "");
-  const auto begin = std::chrono::steady_clock::now();
   finish(whole, 1);
-  const auto micros =
-      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin).count();
 
   const std::string killed = root_ + "/killed";
   { OptimizationRun::create(killed, settings(), ""); }
@@ -90,10 +87,19 @@ TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
       finish(run, 1);
       _exit(0);
     }
-    usleep(static_cast<useconds_t>(random.uniform(0.02, 0.3) * static_cast<double>(micros)));
-    kill(child, SIGKILL);
+    // Some generations further, and then anywhere within one.
+    const auto generations = bytes(killed + "/generations.jsonl").size();
     int status = 0;
-    waitpid(child, &status, 0);
+    bool over = false;
+    while (!over && bytes(killed + "/generations.jsonl").size() <= generations) {
+      usleep(100);
+      over = waitpid(child, &status, WNOHANG) == child;
+    }
+    usleep(static_cast<useconds_t>(random.uniform(0.0, 3000.0)));
+    if (!over) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+    }
     finished = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     kills += finished ? 0 : 1;
   }
@@ -248,7 +254,7 @@ TEST(LearnedFile, OpensWithWhatWasReachedAndKeepsTheRuleOfItsSeeds) {
   EXPECT_LT(text.find("quadratic"), text.find("[motion."));
   EXPECT_LT(text.find("[motion."), text.find("[provenance.quadratic]"));
   EXPECT_NE(text.find("seeds = [{ seed = 1, generation = 0, count = 100 }]"), std::string::npos);
-  const std::string path = testing::TempDir() + "/learned.toml";
+  const std::string path = testing::TempDir() + "/learned_" + std::to_string(::getpid()) + ".toml";
   writeAtomically(path, text);
   const std::vector<Provenance> read = readProvenance(path);
   ASSERT_EQ(read.size(), 1U);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "sim/scenario.h"
 
@@ -187,7 +188,7 @@ TEST(SelfCollision, ARemovalIsNotRepeatedForTenSeconds) {
 TEST(SelfCollision, IsWrittenToAFileWhenWanted) {
   Settings settings = quietSettings();
   settings.writeSelfCollisionsToFile = true;
-  const std::string file = testing::TempDir() + "self_collisions.txt";
+  const std::string file = testing::TempDir() + "self_collisions_" + std::to_string(::getpid()) + ".txt";
   std::filesystem::remove(file);
   settings.selfCollisionRecordFilename = file;
   SelfCollision s(settings);

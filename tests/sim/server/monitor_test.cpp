@@ -14,6 +14,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "nonet/math/random.h"
 
@@ -334,7 +335,7 @@ TEST(MonitorStream, TheSelectionShows) {
 }
 
 TEST(MonitorLog, OneMessagePerLineEveryFifthOfASecondAndFullEveryThree) {
-  const std::string path = ::testing::TempDir() + "nonet_monitor_test.log";
+  const std::string path = ::testing::TempDir() + "nonet_monitor_test_" + std::to_string(::getpid()) + ".log";
   {
     Moving match;
     MonitorLog log(match.sim, path);
