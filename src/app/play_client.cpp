@@ -62,9 +62,10 @@ void noticeSilentEnd(int socket) {
     ::setsockopt(socket, level, option, &value, sizeof value);
   };
   set(SOL_SOCKET, SO_KEEPALIVE, 1);
-  set(IPPROTO_TCP, TCP_KEEPIDLE, 5);   // s without a message until the first question
-  set(IPPROTO_TCP, TCP_KEEPINTVL, 2);  // s between two
-  set(IPPROTO_TCP, TCP_KEEPCNT, 3);    // without an answer, then the connection is gone
+  set(IPPROTO_TCP, TCP_KEEPIDLE, 5);          // s without a message until the first question
+  set(IPPROTO_TCP, TCP_KEEPINTVL, 2);         // s between two
+  set(IPPROTO_TCP, TCP_KEEPCNT, 3);           // without an answer, then the connection is gone
+  set(IPPROTO_TCP, TCP_USER_TIMEOUT, 11000);  // ms; the same if the last answer was not acknowledged
 }
 
 class PlayClient {
