@@ -83,7 +83,7 @@ def effects(games, names, opponents):
     design = [[float(g[0] == o) for o in opponents] + [float(n in g[1]) for n in names] for g in games]
     width = len(opponents) + len(names)
     if len(games) <= width:
-        raise ArithmeticError(f"{len(games)} games; more than {width} are needed")
+        raise ArithmeticError(f"{len(games)} pairs of games; more than {width} are needed")
     normal = [[sum(x[i] * x[j] for x in design) for j in range(width)] for i in range(width)]
     unit = [[float(i == j) for j in range(width)] for i in range(width)]
     inverse = solve(normal, unit)
@@ -97,9 +97,9 @@ def effects(games, names, opponents):
 def fingerprint(program):
     """Of the program and of what it plays with, so that no screening mixes two."""
     data = pathlib.Path(os.environ.get("NONET_DATA") or ROOT)
-    files = [pathlib.Path(program)]
-    files += sorted(f for folder in ("params", "skills") for f in (data / folder).iterdir() if f.is_file())
     try:
+        files = [pathlib.Path(program)]
+        files += sorted(f for folder in ("params", "skills") for f in (data / folder).rglob("*") if f.is_file())
         return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
     except OSError as trouble:
         sys.exit(f"cannot read {trouble.filename}: name the program with --nonet, its data with NONET_DATA")
@@ -137,6 +137,8 @@ def play_all(changes, settings, done):
             games = concurrent.futures.as_completed([pool.submit(one, pair) for pair in missing])
             for number, ended in enumerate(games, 1):
                 record = json.dumps(ended.result())
+                if fingerprint(settings.nonet) != settings.fingerprint:
+                    raise RuntimeError("the program, params/ or skills/ changed; put them back")
                 with (settings.out / "pairs.jsonl").open("a") as file:
                     file.write(record + "\n")
                 print(f"{number} of {len(missing)} pairs", file=sys.stderr, flush=True)
@@ -196,8 +198,9 @@ def self_test():
 
 def screen(settings):
     changes = read_changes(settings.changes)
+    settings.fingerprint = fingerprint(settings.nonet)
     plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
-            "exact": settings.exact, "fingerprint": fingerprint(settings.nonet)}
+            "exact": settings.exact, "fingerprint": settings.fingerprint}
     settings.out.mkdir(parents=True, exist_ok=True)
     kept = settings.out / "plan.json"
     if kept.exists() and json.loads(kept.read_text()) != plan:

@@ -149,6 +149,7 @@ int acceptFile(OptimizeArguments& arguments) {
   if (arguments.out.empty()) throw std::runtime_error("--out FILE says where the accepted set goes");
   lab::OptimizationSettings& settings = arguments.settings;
   const lab::Task& task = lab::findTask(arguments.task);
+  settings.task = arguments.task;
   std::vector<lab::Provenance> origins = lab::readProvenance(arguments.accept);
   lab::Provenance origin;
   for (const lab::Provenance& known : origins) {
@@ -156,6 +157,7 @@ int acceptFile(OptimizeArguments& arguments) {
   }
   settings.robotType = acceptedType(arguments, origins);
   agent::AgentParameters parameters = acceptedParameters(arguments, !origins.empty());
+  if (origins.empty()) origins = settings.inherited;  // of the type's file, whose values are in it too
   task.prepare(parameters);
   origin.task = arguments.task;
   origin.robotType = settings.robotType;

@@ -339,6 +339,7 @@ class PlayClient {
     link_->silence.cancel();
     link_->socket.close(ignored);
     link_.reset();  // its handlers find that they are over
+    turnEnd_.cancel();
     turn_.release();
     reconnectAfter_ = kSilenceBeforeReconnect;
     const double pause = exit == PlayExit::Refused ? kPauseAfterRefusal : nextPause_;

@@ -131,7 +131,8 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
   command->add_option("--kick-off-wait", matches.kickOffWait, "Simulated seconds before each half")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e4));
   command
       ->add_option("--realtime-share", matches.realTimeShare,
                    "Share of matches by the clock, not in lock-step")

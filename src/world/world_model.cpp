@@ -77,6 +77,7 @@ struct WorldModel::Stages {
   WorldState state;
   std::array<std::optional<Pose2>, kBeamDelay> beams;  // asked for, newest last
   std::optional<Vector2> spot;  // where the ball will lie for the set piece, own field frame
+  double spotSince = kNever;    // begin of the phase that it belongs to
 };
 
 void WorldModel::Stages::fillSelf() {
@@ -158,7 +159,8 @@ void WorldModel::Stages::believe(const protocol::SayMessage& message, double tim
 // A ball that has left the field does not matter any more, but where the referee will put it.
 void WorldModel::Stages::followBall(const protocol::Percept& percept) {
   const GameState& now = state.game;
-  if (now.phaseSince == state.time) {
+  if (now.phaseSince != spotSince) {
+    spotSince = now.phaseSince;
     spot.reset();
     if (state.ball.known) spot = setPieceSpot(now.phase, state.ball.p_FB.head<2>(), state.field);
   }

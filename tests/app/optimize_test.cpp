@@ -105,6 +105,17 @@ TEST_F(Optimize, AcceptsForTheTypeThatTheFileWasLearnedFor) {
   EXPECT_THAT(text("b.toml"), HasSubstr("robotType = 4"));
 }
 
+// A fit, or a line written by hand: everything else that the type has learned stays.
+TEST_F(Optimize, AcceptsAFewValuesOnTopOfTheTypesFile) {
+  write("few.toml", "[team.ball]\nkick = false\n");
+  const auto [code, output] = run({"quadratic", "--accept", folder.file("few.toml"), "--type", "2",
+                                   "--trials", "1", "--out", folder.file("all.toml")});
+  ASSERT_EQ(code, 0) << output;
+  EXPECT_THAT(text("all.toml"), HasSubstr("kick = false"));
+  EXPECT_THAT(text("all.toml"), HasSubstr("[motion.skills.kick_power]"));
+  EXPECT_THAT(text("all.toml"), HasSubstr("[provenance.goToTarget]"));
+}
+
 TEST_F(Optimize, ASignalEndsItWithWhatIsLearned) {
   Program program({"optimize", "quadratic", "--out", folder.file("run"), "--generations", "1000000",
                    "--restarts", "ipop"},

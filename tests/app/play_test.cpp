@@ -20,7 +20,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kAccepted = "(unum 3) (team left) ";
 
@@ -146,7 +145,11 @@ TEST(Play, TellsARefusal) {
   Player player(settingsFor(server));
   server.accept();
   server.receive();
-  for (int i = 0; i <= agent::Session::kRefusalPatience + 1; ++i) {
+  server.send(standingMessage(1.0));
+  std::optional<std::string> answer = server.receive();
+  while (answer && !answer->starts_with("(init")) answer = server.receive();
+  ASSERT_TRUE(answer) << "it introduces itself";
+  for (int i = 1; i <= agent::Session::kRefusalPatience + 1; ++i) {
     server.send(standingMessage(1.0 + 0.02 * i));
     server.receive(0.5);
   }

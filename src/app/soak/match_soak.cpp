@@ -94,6 +94,9 @@ class MatchSoak {
     for (const Json& line : lab::readWholeLines(file("matches.jsonl"))) {
       const int index = line.value("index", -1);
       if (index >= settings_.matches) continue;
+      if (line.value("seed", std::uint64_t{0}) != soakMatch(settings_, index).seed)
+        throw std::runtime_error(
+            fmt::format("{} holds another soak: give the same options or another --out", settings_.out));
       if (done_.insert(index).second) played_.push_back(line);
     }
   }
@@ -121,7 +124,8 @@ class MatchSoak {
     processes.start(command, file(name + ".txt"));
     while (processes.poll(), processes.processes()[0].running) {
       const double time = std::chrono::duration<double>(Clock::now() - begin).count();
-      const bool hangs = time > kPatience + kSlowest * 60.0 * settings_.minutes;
+      const bool hangs =
+          time > kPatience + kSlowest * (60.0 * settings_.minutes + 2.0 * settings_.kickOffWait);
       if (hangs || StopSignal::came()) {
         ::kill(processes.processes()[0].pid, SIGTERM);
         processes.stop(kEnding);

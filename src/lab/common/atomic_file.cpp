@@ -11,11 +11,16 @@
 namespace nonet::lab {
 
 void writeAtomically(const std::string& path, const std::string& text) {
-  const std::string fresh = path + ".new";
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code ignored;  // shows when the file is opened
-  if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
-  if (std::filesystem::is_directory(path, ignored))
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::path real = fs::is_symlink(path, unknown) ? fs::weakly_canonical(path, unknown) : fs::path(path);
+  // A pipe or a device cannot be exchanged for another file.
+  const bool special =
+      fs::exists(real, unknown) && !fs::is_regular_file(real, unknown) && !fs::is_directory(real, unknown);
+  const std::string fresh = special ? real.string() : real.string() + ".new";
+  const fs::path folder = real.parent_path();
+  if (!folder.empty()) fs::create_directories(folder, unknown);  // an error shows when the file is opened
+  if (fs::is_directory(path, unknown))
     throw std::runtime_error(fmt::format("cannot write {}: it is a folder, give the name of a file", path));
   {
     errno = 0;
@@ -24,7 +29,7 @@ void writeAtomically(const std::string& path, const std::string& text) {
     file.flush();
     if (!file) throw std::runtime_error(fmt::format("cannot write {}: {}", fresh, std::strerror(errno)));
   }
-  std::filesystem::rename(fresh, path);
+  if (!special) fs::rename(fresh, real);
 }
 
 }  // namespace nonet::lab

@@ -69,7 +69,9 @@ void setServerSetting(sim::Settings& settings, const std::string& assignment) {
        {"AutomaticKickOff", "there is nobody else who would kick off"},
        {"LeftTeam", "name the teams by their options"},
        {"RightTeam", "name the teams by their options"}}};
-  const std::string_view name = std::string_view(assignment).substr(0, assignment.find('='));
+  std::string_view name = std::string_view(assignment).substr(0, assignment.find('='));
+  while (name.ends_with(' ')) name.remove_suffix(1);
+  while (name.starts_with(' ')) name.remove_prefix(1);
   for (const auto& [decided, advice] : kDecided) {
     if (name == decided)
       throw std::runtime_error(fmt::format("{}: the match decides this itself: {}", assignment, advice));

@@ -74,11 +74,12 @@ void Series::resume(const SeriesSettings& settings) {
   settings_.sequential = settings.sequential;
   settings_.monitorLogs = settings.monitorLogs;
   const int counts = result().games;
-  if (counts < counted)
+  const bool beyond = !records_.empty() && records_.rbegin()->first >= 2 * settings_.pairs;
+  if (counts < counted || beyond)
     throw std::runtime_error(fmt::format(
-        "{} holds {} games, of which only {} would count with these --pairs and --sprt: give those it was "
+        "{} holds {} games, not all of which would count with these --pairs and --sprt: give those it was "
         "played with (see series.json), or choose another folder with --out",
-        folder_, counted, counts));
+        folder_, records_.size()));
 }
 
 void Series::readLines() {

@@ -75,8 +75,9 @@ std::string SeriesResult::toText(const SeriesSettings& settings) const {
   text += fmt::format("{} games of {:g} minutes ({} pairs): A won {}, tied {}, lost {}; goals {} : {}\n",
                       games, settings.minutes, pairs.size(), wins, ties, losses, goalsA, goalsB);
   text += fmt::format(
-      "goal difference per ten minutes, A minus B: {:+.3f} (standard error {:.3f}), 95 % {}{}\n",
-      difference.mean, difference.standardError, interval(difference),
+      "goal difference per ten minutes, A minus B: {:+.3f}{}, 95 % {}{}\n", difference.mean,
+      difference.pairs < 2 ? "" : fmt::format(" (standard error {:.3f})", difference.standardError),
+      interval(difference),
       verdict == Verdict::Open ? "" : " (too narrow and too far out: it ended because it had decided)");
   if (crashedA + crashedB + goneA + goneB > 0)
     text += fmt::format("agents that crashed {} : {}, players not there at the end of a game {} : {}\n",

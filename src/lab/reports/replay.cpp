@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <time.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/agent/data_folder.h"
 #include "nonet/config/assignment.h"
 #include "nonet/config/parameters.h"
 #include "nonet/lab/common/statistics.h"
 #include "nonet/lab/reports/token_difference.h"
+#include "nonet/motion/skill_language.h"
 #include "nonet/protocol/log_file.h"
 #include "nonet/protocol/percept_text.h"
 
@@ -269,8 +272,12 @@ agent::AgentSettings fromHeader(const protocol::LogHeader& header, const std::st
                                 const std::string& path) {
   try {
     return agent::agentFromLog(header, dataFolder, path);
+  } catch (const agent::DataError&) {
+    throw;
   } catch (const config::ParameterError& error) {
     throw protocol::LogError(error.what());
+  } catch (const motion::SkillError& error) {
+    throw protocol::LogError(fmt::format("{}: {}", path, error.what()));
   }
 }
 

@@ -32,7 +32,8 @@ motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace) {
 }
 
 std::optional<Action> support(const Situation& s) {
-  // On the ball, but the goalie plays it: ready beside it, and out of the way of the clearance.
+  // On the ball, but the goalie plays it, or it may not be touched twice: ready beside it, and out of the way
+  // of a clearance.
   if (s.role == Role::OnBall) {
     const double away = clearanceTarget(s).y() > 0.0 ? -1.0 : 1.0;
     return Action(takePlace(s, s.ball() + Vector2(0.0, away * s.parameters.onBallRoom)), "beside the ball");

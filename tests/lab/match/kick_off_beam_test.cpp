@@ -1,8 +1,7 @@
 // A whole agent that lies on the ground when a goal falls: the beam to its place is the fastest way up, and
 // at the kick-off, three seconds later, it must stand there.
-#include <cmath>
+#include <string>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "nonet/agent/agent.h"

@@ -191,6 +191,13 @@ TEST(Series, FewerPairsOrAnotherTestLeaveWhatIsThere) {
   EXPECT_THROW(Series(folder.path(), tested), std::runtime_error);
   EXPECT_EQ(folder.text("matches.jsonl"), before);
   EXPECT_FALSE(folder.text("result.json").empty());
+  {
+    // Stopped with games under way: what counts has a gap, what is there goes beyond it.
+    const Folder gap("gap");
+    { Series(gap.path(), ten).add(fakeGame(gameOf(ten, 12))); }
+    EXPECT_THROW(Series(gap.path(), settingsOf(6)), std::runtime_error);
+    EXPECT_EQ(Series(gap.path(), settingsOf(7)).played(), 1);
+  }
   EXPECT_EQ(Series(folder.path(), settingsOf(12)).open().size(), 4U);
   EXPECT_TRUE(folder.text("result.json").empty()) << "it tells of ten pairs";
 }

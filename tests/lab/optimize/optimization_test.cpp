@@ -1,5 +1,4 @@
 // The run folder: the same bytes whatever interrupts it, values that can be measured again.
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>

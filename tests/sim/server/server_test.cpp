@@ -98,7 +98,9 @@ TEST(ServerStart, ATakenPortIsNamed) {
 }
 
 TEST(ServerStart, EndsAtOnceWhenStopped) {
-  Running running;
+  ServerSettings serverSettings = lockStep();
+  serverSettings.answerTimeout = 60.0;
+  Running running(serverSettings);
   Client client(running.server.agentPort());
   client.send(sceneText(0));
   ASSERT_TRUE(client.receive());  // now the server waits for our answer
