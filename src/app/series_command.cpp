@@ -66,7 +66,10 @@ int runSeries(SeriesArguments& arguments) {
   settings.b = sideOf(arguments.b, data);
   if (settings.a.name == settings.b.name)
     throw std::runtime_error("the teams need different names (--a-name, --b-name)");
-  for (const std::string& name : {settings.a.name, settings.b.name}) checkTeamName(name);
+  for (const lab::SideSettings* side : {&settings.a, &settings.b}) {
+    checkTeamName(side->name);
+    lab::checkSide(*side, data);
+  }
   if (!arguments.sequential.empty()) settings.sequential = lab::parseSequentialBounds(arguments.sequential);
   settings.place = lab::placeFor(settings);
   if (!settings.serverCommand.empty() && !serverPlace(settings.place))

@@ -17,7 +17,6 @@ namespace nonet::app {
 
 SeriesRun playSeries(lab::SeriesSettings settings, const std::string& folder, int jobs,
                      const std::string& dataFolder, Console& console, const std::string& title) {
-  for (const lab::SideSettings* side : {&settings.a, &settings.b}) lab::checkSide(*side, dataFolder);
   const bool elsewhere = serverPlace(settings.place).has_value();
   settings.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
   settings.version = versionText();

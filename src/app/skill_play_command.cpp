@@ -86,11 +86,7 @@ int run(const SkillPlayArguments& arguments) {
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   lab::SkillTrialSettings settings = arguments.settings;
   chooseSkill(arguments, settings);
-  if (!arguments.ball.empty()) {
-    settings.ball = Vector2(arguments.ball.at(0), arguments.ball.at(1));
-    if (!settings.ball->allFinite())
-      throw std::runtime_error("--ball: expected two finite numbers, X,Y in metres");
-  }
+  if (!arguments.ball.empty()) settings.ball = Vector2(arguments.ball.at(0), arguments.ball.at(1));
   const lab::SkillTrial trial = lab::playSkill(settings);
   fmt::print("{}",
              arguments.json ? lab::skillReportJson(trial, settings) : lab::skillReportText(trial, settings));

@@ -20,6 +20,7 @@ constexpr double kKickLift = 4.0;         // m/s, of that upwards
 constexpr double kKickGate = 14.0;        // squared sigmas
 constexpr double kRestartGate = 30.0;
 constexpr double kUnseenGrowth = 0.3;  // m/s
+constexpr double kHeldSigma = 0.01;    // m, of where the referee holds it
 constexpr double kPutSigma = 0.2;      // m, of where it crossed the touch line
 constexpr double kGrace = 0.3;         // s without a sighting before the growth begins
 constexpr double kKnownSigma = 1.2;    // m
@@ -213,17 +214,19 @@ void BallTracker::hear(const Report& report, double time) {
   }
 }
 
-void BallTracker::hold(const Vector2& p_FB, double time) {
-  if (started_ && time - lastSeen_ < kGrace) return;
-  start({p_FB.x(), p_FB.y(), kBallRestHeight}, Matrix2::Identity() * 1e-4);
+void BallTracker::rest(const Vector2& p_FB, double sigma, double time) {
+  start({p_FB.x(), p_FB.y(), kBallRestHeight}, Matrix2::Identity() * sigma * sigma);
   covariance_.bottomRightCorner<2, 2>() = Matrix2::Identity() * 1e-2;
   lastReported_ = time;
 }
 
+void BallTracker::hold(const Vector2& p_FB, double time) {
+  if (started_ && time - lastSeen_ < kGrace) return;
+  rest(p_FB, kHeldSigma, time);
+}
+
 void BallTracker::put(const Vector2& p_FB, double time) {
-  start({p_FB.x(), p_FB.y(), kBallRestHeight}, Matrix2::Identity() * kPutSigma * kPutSigma);
-  covariance_.bottomRightCorner<2, 2>() = Matrix2::Identity() * 1e-2;
-  lastReported_ = time;
+  rest(p_FB, kPutSigma, time);
   sinceSeen_ = 0.0;
   absences_ = 0;
 }

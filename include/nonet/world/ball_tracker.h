@@ -44,6 +44,7 @@ class BallTracker {
   BallMotion motion() const;
   void setMotion(const BallMotion& motion);
   void start(const Vector3& p_FB, const Matrix2& covariance);
+  void rest(const Vector2& p_FB, double sigma, double time);
   void measure(const Vector3& p_FB, const Matrix3& covariance, double time);
   double kalman(const Vector2& measured, const Matrix2& covariance);
   double mismatch(const Vector2& measured, const Matrix2& covariance) const;
