@@ -98,10 +98,10 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console, con
   return result;
 }
 
-/// Names of parameters have a dot, those of the server's settings have none.
+/// To the server, or to both teams.
 void assign(const std::vector<std::string>& assignments, lab::MatchSettings& match) {
   for (const std::string& assignment : assignments) {
-    if (assignment.substr(0, assignment.find('=')).find('.') == std::string::npos) {
+    if (!lab::namesParameter(assignment)) {
       lab::setServerSetting(match.settings, assignment);
       continue;
     }
@@ -160,13 +160,8 @@ int runMatch(MatchArguments& arguments) {
   return result.finished && result.violations == 0 && allThere ? 0 : 1;
 }
 
-}  // namespace
-
-void addMatchCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("match", "Two teams of our agents play on the embedded server");
-  auto arguments = std::make_shared<MatchArguments>();
-  TcpMatchSettings& settings = arguments->settings;
-  lab::MatchSettings& match = settings.match;
+void addGameOptions(CLI::App* command, MatchArguments& arguments) {
+  lab::MatchSettings& match = arguments.settings.match;
   command->add_option("--minutes", match.minutes, "Game time in all, two halves")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
@@ -174,12 +169,14 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e4));
   command->add_option("--seed", match.seed, "Seed of the server and of all agents")->capture_default_str();
-  CLI::Option* realTime =
-      command->add_flag("--realtime", settings.realTime, "Play by the clock instead of in lock-step");
-  command->add_option("--players", arguments->players, "Players a side")
+  command->add_option("--players", arguments.players, "Players a side")
       ->capture_default_str()
       ->check(CLI::Range(1, 11));
-  command->add_flag("--alone", arguments->alone, "The right team stays away");
+  command->add_flag("--alone", arguments.alone, "The right team stays away");
+}
+
+void addTeamOptions(CLI::App* command, MatchArguments& arguments) {
+  lab::MatchSettings& match = arguments.settings.match;
   command->add_option("--left", match.left.name, "Name of the left team")->capture_default_str();
   command->add_option("--right", match.right.name, "Name of the right team")->capture_default_str();
   command->add_option("--left-params", match.left.parameterFiles, "Parameter files of the left team")
@@ -191,22 +188,18 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--right-data", match.right.dataFolder, "The same of the right team: an older state, say")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--json", arguments->json, "File for the result")->capture_default_str();
-  CLI::Option* logs =
-      command->add_option("--logs", settings.logs, "Folder for one log per agent, for `nonet replay`");
-  command->add_flag(
-      "--truth", arguments->truth,
-      "The server tells each agent where it and the ball are; nobody plays by it, but logs with "
-      "it can be judged by `nonet replay --localization`");
-  command->add_flag("--draw", settings.draw,
-                    "Draw what the agents believe and want on the RoboViz of this machine (UDP port 32769)");
-  command->add_option(
-      "--trace", settings.traces,
-      "Folder for one decision trace per agent: what it believes and wants, for `nonet view`");
-  command->add_option(
-      "--monitor-log", match.monitorLog,
-      "Record the monitor stream for `nonet view` (zstd; plain, for RoboViz, if the name ends "
-      "in .log)");
+  command
+      ->add_option("--left-set", match.left.assignments,
+                   "One parameter of the left team's agents, name=value")
+      ->allow_extra_args(false);
+  command->add_option("--right-set", match.right.assignments, "The same of the right team's")
+      ->allow_extra_args(false);
+  command->add_option("--data", arguments.data, "Folder with params/ and skills/ for both teams")
+      ->check(CLI::ExistingDirectory);
+}
+
+void addServerOptions(CLI::App* command, MatchArguments& arguments) {
+  TcpMatchSettings& settings = arguments.settings;
   command->add_option("--port", settings.port, "Port for agents, 0: any free one")->capture_default_str();
   command->add_option("--monitor-port", settings.monitorPort, "Port for monitors, 0: any free one")
       ->capture_default_str();
@@ -215,51 +208,82 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
                    "Lock-step: seconds after which a silent agent is no longer waited for")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e6));
-  command->add_option("--settings", arguments->settingFiles, "Files with settings of the server")
+  command->add_option("--settings", arguments.settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
   command
-      ->add_option("--set", arguments->assignments,
+      ->add_option("--set", arguments.assignments,
                    "One value, name=value: a setting of the server (SayLossShare=0.2), or with a dot a "
                    "parameter of all "
                    "agents (team.ball.kick=false)")
       ->allow_extra_args(false);
-  command
-      ->add_option("--left-set", match.left.assignments,
-                   "One parameter of the left team's agents, name=value")
-      ->allow_extra_args(false);
-  command->add_option("--right-set", match.right.assignments, "The same of the right team's")
-      ->allow_extra_args(false);
-  command->add_option("--data", arguments->data, "Folder with params/ and skills/ for both teams")
-      ->check(CLI::ExistingDirectory);
-  command->add_flag("--check", match.check,
+}
+
+void addRecordings(CLI::App* command, MatchArguments& arguments) {
+  TcpMatchSettings& settings = arguments.settings;
+  command->add_option("--json", arguments.json, "File for the result")->capture_default_str();
+  command->add_flag(
+      "--truth", arguments.truth,
+      "The server tells each agent where it and the ball are; nobody plays by it, but logs with "
+      "it can be judged by `nonet replay --localization`");
+  command->add_flag("--draw", settings.draw,
+                    "Draw what the agents believe and want on the RoboViz of this machine (UDP port 32769)");
+  command->add_option(
+      "--trace", settings.traces,
+      "Folder for one decision trace per agent: what it believes and wants, for `nonet view`");
+  command->add_option(
+      "--monitor-log", settings.match.monitorLog,
+      "Record the monitor stream for `nonet view` (zstd; plain, for RoboViz, if the name ends "
+      "in .log)");
+}
+
+/// In one process there are neither logs nor a clock to play by.
+void addWayOfPlaying(CLI::App* command, MatchArguments& arguments) {
+  TcpMatchSettings& settings = arguments.settings;
+  CLI::Option* realTime =
+      command->add_flag("--realtime", settings.realTime, "Play by the clock instead of in lock-step");
+  CLI::Option* logs =
+      command->add_option("--logs", settings.logs, "Folder for one log per agent, for `nonet replay`");
+  command->add_flag("--check", settings.match.check,
                     "Look in every cycle whether the physics holds: finite, within stops, above the ground");
   CLI::Option* inProcess = command
-                               ->add_flag("--in-process", arguments->inProcess,
+                               ->add_flag("--in-process", arguments.inProcess,
                                           "Agents and world in this process, without text and sockets")
                                ->excludes(logs, realTime);
   command
       ->add_flag(
-          "--localization", arguments->localization,
+          "--localization", arguments.localization,
           "With --in-process: what all players believe of their place, the ball and each other against "
           "the simulation's truth")
       ->needs(inProcess);
   command
       ->add_flag(
-          "--agreement", arguments->agreement,
+          "--agreement", arguments.agreement,
           "With --in-process: in what share of the cycles all field players of a team mean the same "
           "assignment of roles; --set SayLossShare=0.2 makes each listener miss a fifth of what is said")
       ->needs(inProcess);
   command
-      ->add_flag("--kicks", arguments->kicks,
+      ->add_flag("--kicks", arguments.kicks,
                  "With --in-process: how far each kick was meant to go, how far the ball went and how far "
                  "off its way")
       ->needs(inProcess);
   command
-      ->add_option("--threads", arguments->threads,
+      ->add_option("--threads", arguments.threads,
                    "With --in-process: threads for agents and physics, 0: one per core")
       ->capture_default_str()
       ->check(CLI::Range(0, 256))
       ->needs(inProcess);
+}
+
+}  // namespace
+
+void addMatchCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("match", "Two teams of our agents play on the embedded server");
+  auto arguments = std::make_shared<MatchArguments>();
+  addGameOptions(command, *arguments);
+  addTeamOptions(command, *arguments);
+  addServerOptions(command, *arguments);
+  addRecordings(command, *arguments);
+  addWayOfPlaying(command, *arguments);
   command->footer(
       "Examples:\n"
       "  nonet match --minutes 2 --seed 7 --logs logs          over TCP, a log for nonet replay of each "

@@ -47,12 +47,11 @@ lab::SideSettings sideOf(const SideArguments& arguments, const std::string& data
   return side;
 }
 
-/// Names of parameters have a dot, those of the server's settings have none. What a side sets itself counts.
+/// To the server, or to both sides. What a side sets itself counts.
 void assign(SeriesArguments& arguments) {
   std::vector<std::string> ofBoth;
   for (const std::string& assignment : arguments.assignments) {
-    const bool parameter = assignment.substr(0, assignment.find('=')).find('.') != std::string::npos;
-    (parameter ? ofBoth : arguments.settings.settingAssignments).push_back(assignment);
+    (lab::namesParameter(assignment) ? ofBoth : arguments.settings.settingAssignments).push_back(assignment);
   }
   for (lab::SideSettings* side : {&arguments.a.side, &arguments.b.side})
     side->assignments.insert(side->assignments.begin(), ofBoth.begin(), ofBoth.end());

@@ -199,6 +199,8 @@ class TcpMatch {
     const sim::Server::Statistics statistics = server_.statistics();
     result.timeouts = statistics.timeouts;
     result.droppedMessages = statistics.droppedMessages;
+    result.answers = statistics.answers;
+    result.delays = statistics.delays;
     for (std::size_t i = 0; i < result.players.size(); ++i) {
       lab::PlayerRecord& player = result.players[i];
       const AgentProcesses::Process& process = processes_.processes()[i];

@@ -107,7 +107,7 @@ double kickValue(const Situation& s, double direction, double length, bool maySc
   const bool reaches = mayScore && std::cos(direction) > 0.1 && toLine < p.shotLength / p.length * length;
   const double scores = reaches ? hitsGoal(s.world, direction, p.spread) : 0.0;
   const double flown = scores > 0.0 ? std::min(toLine, length) : length;
-  const Block block = blockOf(s, flown * unitVector(direction));
+  const Block block = blockOf(s, s.ball() + flown * unitVector(direction));
   const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unitVector(direction));
   return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, kStopped);
 }

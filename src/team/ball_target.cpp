@@ -3,6 +3,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/math/straight_way.h"
 #include "nonet/team/ball_play.h"
 
 namespace nonet::team {
@@ -117,16 +118,13 @@ double barred(const world::WorldState& world, const BallTargetParameters& p, dou
 
 double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest,
                  const motion::KickHead& kick) {
-  const Vector2 way = to - from;
-  const double squared = std::max(way.squaredNorm(), 1e-9);
+  const StraightWay way(from, to);
   double width = widest;
   for (const world::PlayerState& player : world.opponents) {
     if (!player.known) continue;
-    const Vector2 offset = player.X_FP.translation - from;
-    const double along = std::clamp(offset.dot(way) / squared, 0.0, 1.0);
-    const double distance = along * std::sqrt(squared);
-    if (1.0 - kick.fliesBelow(kRobotHeight, distance) > kSurelyOver) continue;
-    width = std::min(width, (offset - along * way).norm());
+    const Vector2& p_F = player.X_FP.translation;
+    if (1.0 - kick.fliesBelow(kRobotHeight, way.nearestTo(p_F)) > kSurelyOver) continue;
+    width = std::min(width, way.distanceTo(p_F));
   }
   return width;
 }

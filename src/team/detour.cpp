@@ -8,6 +8,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/math/straight_way.h"
 
 namespace nonet::team {
 
@@ -41,16 +42,13 @@ Discs aroundEnds(const Vector2& from, const Vector2& to, std::span<const Disc> d
 
 // The first disc that the way cuts.
 const Disc* firstCut(const Vector2& from, const Vector2& to, std::span<const Disc> discs) {
-  const Vector2 way = to - from;
-  const double length = std::max(way.norm(), 1e-9);
-  const Vector2 along = way / length;
+  const StraightWay way(from, to);
   const Disc* first = nullptr;
-  double entry = length;
+  double entry = way.length();
   for (const Disc& disc : discs) {
-    const Vector2 offset = disc.p_F - from;
-    const double ahead = offset.dot(along);
+    const auto [ahead, aside] = way.placeOf(disc.p_F);
     if (ahead <= 0.0 || ahead - disc.radius > entry) continue;
-    const double inside = disc.radius * disc.radius - (offset - ahead * along).squaredNorm();
+    const double inside = disc.radius * disc.radius - aside * aside;
     if (inside <= 0.0) continue;
     const double enters = ahead - std::sqrt(inside);
     if (enters >= entry) continue;

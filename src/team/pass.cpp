@@ -43,7 +43,7 @@ struct Resistance {
 };
 
 Resistance resistanceTo(const Situation& s, const Vector2& p_FTarget) {
-  return {opponentsTime(s, p_FTarget), blockOf(s, p_FTarget - s.ball())};
+  return {opponentsTime(s, p_FTarget), blockOf(s, p_FTarget)};
 }
 
 // The receiver may be there before the ball and wait; opponents set off when they see the ball coming.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "nonet/math/direction.h"
+#include "nonet/math/straight_way.h"
 #include "nonet/team/ball_choice.h"
 
 namespace nonet::team {
@@ -34,21 +35,17 @@ double probabilityFirst(double ours, double theirs, double spread) {
   return std::isinf(theirs) ? 1.0 : logistic((theirs - ours) / spread);
 }
 
-Block blockOf(const Situation& s, const Vector2& way) {
+Block blockOf(const Situation& s, const Vector2& end) {
   const ChoiceParameters& p = s.parameters.choice;
-  const Vector2 ball = s.ball();
-  const double length = std::max(way.norm(), 1e-6);
-  const Vector2 along = way / length;
+  const StraightWay way(s.ball(), end);
   Block block;
   double passes = 1.0;
   for (const world::PlayerState& opponent : s.world.opponents) {
     if (!opponent.known || opponent.fallen) continue;
-    const Vector2 offset = opponent.X_FP.translation - ball;
-    const double ahead = offset.dot(along);
-    if (ahead < 0.0 || ahead > length) continue;
-    const double aside = std::abs(along.x() * offset.y() - along.y() * offset.x());
+    const auto [ahead, aside] = way.placeOf(opponent.X_FP.translation);
+    if (ahead < 0.0 || ahead > way.length()) continue;
     const double reach = p.blockWidth + (p.blockGrowth + p.spread) * ahead;
-    const double stops = std::clamp(1.5 - aside / std::max(reach, 1e-6), 0.0, 1.0);
+    const double stops = std::clamp(1.5 - std::abs(aside) / std::max(reach, 1e-6), 0.0, 1.0);
     passes *= 1.0 - stops;
     if (stops <= block.probability) continue;
     block.probability = stops;
@@ -81,7 +78,7 @@ double dribbleValue(const Situation& s) {
   const Vector2 end = s.ball() + std::min(p.dribbleAhead, way.norm()) * unitVector(direction);
   // Robots at the ball bar the way, and those farther on will.
   const double near = barred(s.world, s.parameters.target, direction);
-  const double lost = p.dribbleLoss * std::max(near, blockOf(s, end - s.ball()).probability);
+  const double lost = p.dribbleLoss * std::max(near, blockOf(s, end).probability);
   return valueAt(s, end, 1.0 - lost);
 }
 

@@ -25,8 +25,8 @@ struct Block {
   Vector2 p_F = Vector2::Zero();
 };
 
-/// Of the ball on this way from where it lies, m.
-Block blockOf(const Situation& situation, const Vector2& way);
+/// Of the ball on the straight way from where it lies.
+Block blockOf(const Situation& situation, const Vector2& end);
 
 /// s from now until the foot meets the ball in this kick, when the robot must face this direction for it
 /// (rad, own field frame; docs/results.md, contact times).

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/rotation.h"
 
 namespace nonet::world {
 
@@ -27,16 +28,6 @@ model::BodyId footOf(std::size_t side) {
 Matrix3 stepRotation(const Vector3& w, double dt) {
   const Eigen::Quaterniond turn(1.0, 0.5 * w.x() * dt, 0.5 * w.y() * dt, 0.5 * w.z() * dt);
   return turn.normalized().toRotationMatrix();
-}
-
-Matrix3 smallRotation(const Vector3& rotation) {
-  const double angle = rotation.norm();
-  if (angle < 1e-12) return Matrix3::Identity();
-  return Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-}
-
-double yawOf(const Matrix3& R) {
-  return std::atan2(R(1, 0), R(0, 0));
 }
 
 double tiltOf(const Matrix3& R) {
@@ -187,7 +178,7 @@ void BodyTracker::levelByAccelerometer(BodyState& state) {
   const Vector3 error = up_G.cross(Vector3::UnitZ());
   tiltMismatches_ = error.norm() > 0.02 ? tiltMismatches_ + 1 : 0;
   const double gain = tiltMismatches_ > 5 ? 0.3 : 0.01;  // large: somebody else put the robot upright
-  state.R_GR = smallRotation(gain * error) * state.R_GR;
+  state.R_GR = exponential(gain * error) * state.R_GR;
 }
 
 BodyTracker::KinematicVelocity BodyTracker::footVelocity(const BodyState& state, double dt) const {
@@ -274,14 +265,14 @@ void BodyTracker::correctByFeet(BodyState& state) {
   settledVelocity_.head<2>() += gain.x() * innovation.head<2>();
   // exp(d) R a = R a + d x (R a), and R a is mostly (0, 0, g): a tilt error d about y adds g d to x.
   const Vector3 tilt(-gain.y() * innovation.y(), gain.y() * innovation.x(), 0.0);
-  state.R_GR = smallRotation(tilt) * state.R_GR;
-  previousR_GR_ = smallRotation(tilt) * previousR_GR_;
+  state.R_GR = exponential(tilt) * state.R_GR;
+  previousR_GR_ = exponential(tilt) * previousR_GR_;
   const Matrix2 joseph = Matrix2::Identity() - gain * Eigen::RowVector2d(1.0, 0.0);
   covariance_ = joseph * covariance_ * joseph.transpose() + variance * gain * gain.transpose();
 }
 
 void BodyTracker::correctTilt(const Vector3& rotation, BodyState& state) {
-  const Matrix3 turn = smallRotation(Vector3(rotation.x(), rotation.y(), 0.0));
+  const Matrix3 turn = exponential(Vector3(rotation.x(), rotation.y(), 0.0));
   state.R_GR = turn * state.R_GR;
   previousR_GR_ = turn * previousR_GR_;
   updateAngles(state);
@@ -290,7 +281,7 @@ void BodyTracker::correctTilt(const Vector3& rotation, BodyState& state) {
 void BodyTracker::putUpright(BodyState& state) {
   state.putUpright = true;
   if (state.posture == Posture::Upright) return;
-  state.R_GR = Eigen::AngleAxisd(yawOf(state.R_GR), Vector3::UnitZ()).toRotationMatrix();
+  state.R_GR = turnAboutZ(yawOf(state.R_GR));
   previousR_GR_ = state.R_GR;
   settledVelocity_.setZero();
   state.v_GR.setZero();

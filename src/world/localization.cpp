@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/rotation.h"
 
 namespace nonet::world {
 
@@ -37,14 +38,6 @@ constexpr double kExpectation = 1.0;    // s for which a beam is expected to sho
 constexpr double kContradiction = 3.0;  // mean -log likelihood of what is seen at a pose that is wrong
 constexpr double kBeamHeight = 0.4;     // m, of the torso
 
-double headingOf(const Matrix3& R) {
-  return std::atan2(R(1, 0), R(0, 0));
-}
-
-Matrix3 turnAboutZ(double angle) {
-  return Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
-}
-
 /// The turn about z in R = turnAboutZ(angle) * swing, where the swing axis is horizontal.
 double twistAboutZ(const Matrix3& R) {
   const Eigen::Quaterniond q(R);
@@ -55,11 +48,6 @@ double twistAboutZ(const Matrix3& R) {
 void stand(PoseBelief& belief, double heading) {
   belief.p_WR.z() = kBeamHeight;
   belief.R_WR = turnAboutZ(heading);
-}
-
-Vector3 rotationVector(const Matrix3& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
 }
 
 }  // namespace
@@ -169,7 +157,7 @@ void Localization::correct(const BodyState& body, const protocol::Vision& vision
     return;
   }
   if (settings_.useFilter) {
-    const double heading = headingOf(body.R_GR);
+    const double heading = yawOf(body.R_GR);
     Pose3 X_LC = Pose3::Identity();
     X_LC.linear() = turnAboutZ(-heading) * body.R_GR;
     X_LC = X_LC * model::cameraPose(body.bodies);
@@ -288,7 +276,7 @@ std::optional<PoseBelief> Localization::shiftedByLandmarks(const BodyState& body
     p_WR += map_->landmark(seen.id) - belief_.R_WR * (X_RC * (seen.at.p_CP - belief_.offset));
   }
   p_WR /= static_cast<double>(landmarks.size());
-  PoseBelief belief = wideBelief({p_WR.x(), p_WR.y(), headingOf(belief_.R_WR)}, kFreeSigma, 0.0, body);
+  PoseBelief belief = wideBelief({p_WR.x(), p_WR.y(), yawOf(belief_.R_WR)}, kFreeSigma, 0.0, body);
   const double heading = belief_.covariance(kRotationState + 2, kRotationState + 2);
   belief.covariance(kRotationState + 2, kRotationState + 2) = heading + kKeptHeadingSigma * kKeptHeadingSigma;
   return belief;
@@ -300,7 +288,7 @@ std::optional<PoseBelief> Localization::fromLandmarks(const BodyState& body, boo
   // Level the observations with the torso's tilt and match them to the map in the plane: the turn and shift
   // with the least squares error have a closed form.
   const Matrix3 level =
-      upright ? Matrix3(Matrix3::Identity()) : Matrix3(turnAboutZ(-headingOf(body.R_GR)) * body.R_GR);
+      upright ? Matrix3(Matrix3::Identity()) : Matrix3(turnAboutZ(-yawOf(body.R_GR)) * body.R_GR);
   const Pose3& X_RC = model::cameraPose(body.bodies);
   Vector2 seenMean = Vector2::Zero();
   Vector2 mapMean = Vector2::Zero();
@@ -331,7 +319,7 @@ PoseBelief Localization::wideBelief(const Pose2& X_WR, double positionSigma, dou
                                     const BodyState& body) const {
   PoseBelief belief;
   belief.p_WR << X_WR.translation, body.torsoHeight;
-  belief.R_WR = turnAboutZ(X_WR.rotation - headingOf(body.R_GR)) * body.R_GR;
+  belief.R_WR = turnAboutZ(X_WR.rotation - yawOf(body.R_GR)) * body.R_GR;
   belief.offset = belief_.offset;
   BeliefMatrix& P = belief.covariance;
   P.setZero();
@@ -357,7 +345,7 @@ void Localization::adopt(const PoseBelief& belief, const BodyState& body) {
   // Split the orientation into the heading of G and a correction of the torso's tilt.
   const Matrix3 R_WG = belief_.R_WR * body.R_GR.transpose();
   yawOffset_ = twistAboutZ(R_WG);
-  tiltCorrection_ = rotationVector(turnAboutZ(-yawOffset_) * R_WG);
+  tiltCorrection_ = logarithm(turnAboutZ(-yawOffset_) * R_WG);
 }
 
 void Localization::followFilter(const BodyState& body) {

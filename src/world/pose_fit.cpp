@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "nonet/math/rotation.h"
+
 namespace nonet::world {
 
 namespace {
@@ -17,23 +19,6 @@ using MeasuredVector = Eigen::Matrix<double, 9, 1>;
 constexpr double kEndGate = 25.0;   // squared sigmas of one line end
 constexpr double kAmbiguity = 9.0;  // a second candidate within this of the best: not used
 constexpr int kHalvings = 4;
-
-Matrix3 skew(const Vector3& v) {
-  Matrix3 m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
-Matrix3 exponential(const Vector3& rotation) {
-  const double angle = rotation.norm();
-  if (angle < 1e-12) return Matrix3::Identity() + skew(rotation);
-  return Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-}
-
-Vector3 logarithm(const Matrix3& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
-}
 
 /// Squared sigmas between a seen line and a line of the map in camera axes, both ends together; far more than
 /// the gate if one end does not fit.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/rotation.h"
 #include "nonet/world/ball_tracker.h"
 #include "nonet/world/body_tracker.h"
 #include "nonet/world/game_tracker.h"
@@ -29,10 +30,6 @@ Pose3 fieldFromWorld(bool fromRight) {
   Pose3 X_FW = Pose3::Identity();
   if (fromRight) X_FW.linear() = Vector3(-1.0, -1.0, 1.0).asDiagonal();
   return X_FW;
-}
-
-double headingOf(const Matrix3& R) {
-  return std::atan2(R(1, 0), R(0, 0));
 }
 
 /// Covariance of (x, y, heading) of a point fixed to the robot, `arm` from the torso in field axes.
@@ -87,7 +84,7 @@ void WorldModel::Stages::fillSelf() {
   const Pose3 X_FR = X_FW * belief.pose();
   const Pose3 X_RC = model::cameraPose(state.body.bodies);
   SelfState& self = state.self;
-  self.X_FR = Pose2(X_FR.translation().x(), X_FR.translation().y(), headingOf(X_FR.linear()));
+  self.X_FR = Pose2(X_FR.translation().x(), X_FR.translation().y(), yawOf(X_FR.linear()));
   self.X_FC = X_FR * X_RC;
   self.height = X_FR.translation().z();
   self.covariance = planarCovariance(belief.covariance, Vector3::Zero(), fromRight);

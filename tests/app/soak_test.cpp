@@ -1,4 +1,6 @@
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +9,7 @@
 #include "nonet/app/soak/false_clock.h"
 #include "nonet/app/soak/match_soak.h"
 #include "nonet/app/soak/memory_watch.h"
+#include "nonet/app/soak/wake_watch.h"
 
 #include "app/program.h"
 
@@ -34,6 +37,17 @@ TEST(SoakCounts, ACrashAMissingAndALateOneAreToldApart) {
   EXPECT_EQ(line["lost_cycles"], 4);
   EXPECT_EQ(line["messages"], 55);
   EXPECT_EQ(countFaults(nlohmann::json())["unfinished"], 1) << "no result at all";
+}
+
+TEST(SoakCounts, WhatTheClockSaidIsTakenOver) {
+  const auto match = nlohmann::json::parse(R"({"finished": true, "answers": {"count": 40, "longest_ms": 7.5,
+      "longer_than_5_ms": 2}, "cycle_delays": {"count": 20, "longest_ms": 3.5, "longer_than_5_ms": 0}})");
+  const Json sum = sumUp({countFaults(match), countFaults(match)});
+  EXPECT_EQ(sum["answers_count"], 80);
+  EXPECT_EQ(sum["answers_longer_than_5_ms"], 4);
+  EXPECT_EQ(sum["most_answers_ms"], 7.5);
+  EXPECT_EQ(sum["cycle_delays_count"], 40);
+  EXPECT_EQ(sum["most_cycle_delays_ms"], 3.5);
 }
 
 TEST(SoakCounts, NumbersAreSummedAndTheLargestKept) {
@@ -78,6 +92,28 @@ TEST(SoakMemory, TheSlopeIsThatOfTheLine) {
   }
   // A megabyte every ten seconds.
   EXPECT_NEAR(watch.growth().perHour.value_or(0.0), 360.0, 100.0);
+}
+
+TEST(SoakWakes, ASleeperIsWokenOnEveryProcessor) {
+  const WakeWatch watch;
+  const auto begin = std::chrono::steady_clock::now();
+  while (watch.delays().count() < 50 && std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_GE(watch.delays().count(), 50);
+  EXPECT_GT(watch.delays().longest(), 0.0);
+}
+
+TEST(Soak, ByTheClockTheMachineIsWatchedToo) {
+  const TestFolder folder("nonet_soak_clock_match");
+  Program program({"soak", "--matches", "1", "--minutes", "0.03", "--kick-off-wait", "0.3", "--players", "2",
+                   "--eleven-share", "0", "--realtime-share", "1", "--out", folder.file("out")},
+                  folder.file("soak.txt"));
+  ASSERT_EQ(program.wait(), 0) << program.output();
+  const Json sum = jsonIn(folder.file("out/result.json"));
+  EXPECT_GT(sum["answers_count"], 400) << "four agents, 50 a second";
+  EXPECT_LE(sum["answers_count"], sum["messages"]);
+  EXPECT_GT(sum["cycle_delays_count"], 100);
+  EXPECT_GT(sum["machine_wakes"], 500);
 }
 
 // The second call finds the first match and plays only the rest.

@@ -6,6 +6,8 @@
 #include "nonet/math/inline_string.h"
 #include "nonet/math/pose2.h"
 #include "nonet/math/random.h"
+#include "nonet/math/rotation.h"
+#include "nonet/math/straight_way.h"
 
 namespace nonet {
 namespace {
@@ -65,6 +67,63 @@ TEST(InlineString, KeepsWhatFits) {
   EXPECT_TRUE(text.assign(""));
   EXPECT_TRUE(text.empty());
   EXPECT_FALSE(text == InlineString<4>("a"));
+}
+
+Vector3 anyVector(Random& random, double most) {
+  Vector3 v;
+  for (double& x : v) x = random.uniform(-most, most);
+  return v;
+}
+
+// Against the exponential's own series.
+TEST(Rotation, IsTheSumOfTheExponentialSeries) {
+  Random random(2);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 rotation = i == 0 ? Vector3(1e-13, 0.0, 0.0) : anyVector(random, 1.5);
+    Matrix3 sum = Matrix3::Identity();
+    Matrix3 term = Matrix3::Identity();
+    for (int n = 1; n < 40; ++n) {
+      term = Matrix3(term * skew(rotation) / n);
+      sum += term;
+    }
+    EXPECT_LT((exponential(rotation) - sum).norm(), 1e-12) << rotation.transpose();
+    EXPECT_LT((logarithm(exponential(rotation)) - rotation).norm(), 1e-7) << rotation.transpose();
+    EXPECT_LT((skew(rotation) * sum.col(1) - rotation.cross(Vector3(sum.col(1)))).norm(), 1e-15);
+  }
+}
+
+TEST(Rotation, TheHeadingOfATurnAboutZIsItsAngle) {
+  for (double angle = -3.0; angle <= 3.0; angle += 0.1) {
+    EXPECT_NEAR(yawOf(turnAboutZ(angle)), angle, 1e-12);
+    EXPECT_LT((turnAboutZ(angle) - exponential(Vector3(0.0, 0.0, angle))).norm(), 1e-12);
+  }
+}
+
+// Against every point of the way in steps of a millimetre.
+TEST(StraightWay, TheNearestIsTheNearestOfAllItsPoints) {
+  Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    const Vector2 from = anyVector(random, 3.0).head<2>();
+    const Vector2 to = i == 0 ? from : Vector2(anyVector(random, 3.0).head<2>());
+    const Vector2 point = anyVector(random, 5.0).head<2>();
+    const StraightWay way(from, to);
+    EXPECT_NEAR(way.length(), (to - from).norm(), 1e-8);
+    double nearest = (point - to).norm();
+    double at = way.length();
+    for (double passed = 0.0; passed < way.length(); passed += 0.001) {
+      const double distance = (from + passed / way.length() * (to - from) - point).norm();
+      if (distance < nearest) {
+        nearest = distance;
+        at = passed;
+      }
+    }
+    EXPECT_NEAR(way.distanceTo(point), nearest, 1e-3);
+    EXPECT_NEAR(way.nearestTo(point), at, 2e-3);
+    if (i == 0) continue;
+    const auto [ahead, aside] = way.placeOf(point);
+    const Vector2 along = (to - from).normalized();
+    EXPECT_LT((from + ahead * along + aside * Vector2(-along.y(), along.x()) - point).norm(), 1e-9);
+  }
 }
 
 }  // namespace

@@ -12,6 +12,13 @@ namespace detail {
 void assignText(const std::vector<Field>& fields, std::string_view assignment);
 }
 
+/// Without the blanks and tabs around it.
+inline std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 /// A switch takes true, false, 1 or 0; other values are numbers in SI units, or carry a unit. ParameterError
 /// begins with the text.
 template <class Parameters>

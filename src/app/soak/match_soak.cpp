@@ -4,6 +4,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -12,6 +13,7 @@
 #include "nonet/app/agent_processes.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/soak/memory_watch.h"
+#include "nonet/app/soak/wake_watch.h"
 #include "nonet/app/stop_signal.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/common/json_lines.h"
@@ -120,6 +122,8 @@ class MatchSoak {
     const Clock::time_point begin = Clock::now();
     MemoryWatch server;
     MemoryWatch agents;
+    std::optional<WakeWatch> wakes;
+    if (match.realTime) wakes.emplace();
     AgentProcesses processes;
     processes.start(command, file(name + ".txt"));
     while (processes.poll(), processes.processes()[0].running) {
@@ -146,6 +150,7 @@ class MatchSoak {
     line["torn_logs"] = tornLogs(name, 2 * match.players);
     const bool faulty = isFaulty(line);
     line["faults"] = faulty ? 1 : 0;
+    if (wakes) addWakes(line, *wakes);
     addMemory(line, server.growth(), agents.growth());
     if (faulty) {
       console_.say(fmt::format("{} (seed {}): {}", name, match.seed, line.dump()));
@@ -160,6 +165,18 @@ class MatchSoak {
     return line["unfinished"].get<long>() + line["crashed"].get<long>() + line["missing"].get<long>() + late +
                line["torn_logs"].get<long>() >
            0;
+  }
+
+  /// How late the machine itself is, beside what answers by the clock were.
+  static void addWakes(Json& line, const WakeWatch& wakes) {
+    const DurationCounts delays = wakes.delays();
+    line["machine_wakes"] = delays.count();
+    for (std::size_t i = 0; i < DurationCounts::kBounds.size(); ++i) {
+      const double bound = 1000.0 * DurationCounts::kBounds[i];
+      line[fmt::format("machine_late_{:.0f}_ms", bound)] = delays.longerThan(i);
+    }
+    line["most_machine_delay_ms"] = 1000.0 * delays.longest();
+    line["machine_watched_first"] = wakes.goesFirst();
   }
 
   static void addMemory(Json& line, const MemoryGrowth& server, const MemoryGrowth& agents) {
@@ -239,6 +256,13 @@ Json countFaults(const nlohmann::json& match) {
                    {"late", late},
                    {"lost_cycles", lost},
                    {"messages", messages}});
+  for (const std::string what : {"answers", "cycle_delays"}) {
+    const nlohmann::json counts = match.value(what, nlohmann::json::object());
+    for (const auto& [key, value] : counts.items()) {
+      const bool longest = key == "longest_ms";
+      line[longest ? fmt::format("most_{}_ms", what) : fmt::format("{}_{}", what, key)] = value;
+    }
+  }
   return line;
 }
 

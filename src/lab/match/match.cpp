@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "nonet/config/assignment.h"
 #include "nonet/math/angle.h"
 #include "nonet/protocol/play_mode.h"
 #include "nonet/sim/server/lobby.h"
@@ -62,6 +63,10 @@ sim::Settings simulationSettings(const MatchSettings& match) {
   return settings;
 }
 
+bool namesParameter(std::string_view assignment) {
+  return assignment.substr(0, assignment.find('=')).find('.') != std::string_view::npos;
+}
+
 void setServerSetting(sim::Settings& settings, const std::string& assignment) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kDecided{
       {{"RuleHalfTime", "give the game time by --minutes"},
@@ -69,9 +74,7 @@ void setServerSetting(sim::Settings& settings, const std::string& assignment) {
        {"AutomaticKickOff", "there is nobody else who would kick off"},
        {"LeftTeam", "name the teams by their options"},
        {"RightTeam", "name the teams by their options"}}};
-  std::string_view name = std::string_view(assignment).substr(0, assignment.find('='));
-  while (name.ends_with(' ')) name.remove_suffix(1);
-  while (name.starts_with(' ')) name.remove_prefix(1);
+  const std::string_view name = config::trimmed(std::string_view(assignment).substr(0, assignment.find('=')));
   for (const auto& [decided, advice] : kDecided) {
     if (name == decided)
       throw std::runtime_error(fmt::format("{}: the match decides this itself: {}", assignment, advice));

@@ -6,6 +6,27 @@
 
 namespace nonet::lab {
 
+namespace {
+
+nlohmann::ordered_json jsonOf(const DurationCounts& counts) {
+  nlohmann::ordered_json json = {{"count", counts.count()}, {"longest_ms", 1000.0 * counts.longest()}};
+  for (std::size_t i = 0; i < DurationCounts::kBounds.size(); ++i) {
+    json[fmt::format("longer_than_{:.0f}_ms", 1000.0 * DurationCounts::kBounds[i])] = counts.longerThan(i);
+  }
+  return json;
+}
+
+std::string textOf(const DurationCounts& counts) {
+  std::string text;
+  for (std::size_t i = 0; i < DurationCounts::kBounds.size(); ++i) {
+    text += fmt::format("{}{} over {:.0f}", i == 0 ? "" : ", ", counts.longerThan(i),
+                        1000.0 * DurationCounts::kBounds[i]);
+  }
+  return text + fmt::format(" ms, the longest {:.1f} ms", 1000.0 * counts.longest());
+}
+
+}  // namespace
+
 int MatchResult::falls(bool rightTeam) const {
   int sum = 0;
   for (const PlayerRecord& player : players) {
@@ -43,6 +64,8 @@ nlohmann::ordered_json MatchResult::toJson() const {
       {"violations", violations},
       {"players", nlohmann::ordered_json::array()},
   };
+  if (answers.count() > 0) json["answers"] = jsonOf(answers);
+  if (delays.count() > 0) json["cycle_delays"] = jsonOf(delays);
   for (const PlayerRecord& player : players) {
     json["players"].push_back({{"team", player.team},
                                {"side", player.rightTeam ? "right" : "left"},
@@ -79,6 +102,10 @@ std::string MatchResult::toText() const {
       "\nfalls {} : {}; {} agents did not play to the end, the server waited in vain {} times, slow "
       "readers lost {} messages\n",
       falls(false), falls(true), crashed, timeouts, droppedMessages);
+  if (answers.count() > 0) {
+    text += fmt::format("of {} answers {}\nof {} cycles that began late {}\n", answers.count(),
+                        textOf(answers), delays.count(), textOf(delays));
+  }
   return text + invariants;
 }
 

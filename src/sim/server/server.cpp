@@ -1,5 +1,7 @@
 #include "nonet/sim/server/server.h"
 
+#include <utility>
+
 #include <asio/post.hpp>
 #include <spdlog/spdlog.h>
 
@@ -11,7 +13,7 @@ namespace nonet::sim {
 
 namespace {
 
-const auto kCycle = std::chrono::round<SteadyClock::duration>(std::chrono::duration<double>(kCycleTime));
+const auto kCycle = std::chrono::round<SteadyClock::duration>(Seconds(kCycleTime));
 constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as silent
 
 }  // namespace
@@ -27,6 +29,7 @@ Server::Implementation::Implementation(const Settings& settings, std::uint64_t s
       monitors(io, simulation, given.address, given.monitorPort,
                Admission(given.mostConnections, given.mostPerAddress)),
       signals(io),
+      cycleTimer(io),
       lobbyOpen(given.players > 0) {
   if (!given.monitorLog.empty()) log.emplace(simulation, given.monitorLog);
   if (given.handleSignals) {
@@ -63,25 +66,29 @@ void Server::Implementation::cycle() {
   stopping = true;
 }
 
+// Server facts 1.2: a cycle begins no earlier than 20 ms after the one before, whatever that one lost.
 void Server::Implementation::pace() {
   io.poll();
   // Lock-step without a robot has nobody to wait for; real time keeps it from running away.
   const bool idle =
       std::none_of(agents.begin(), agents.end(), [](const auto& link) { return link->sensesSent > 0; });
-  if (!serverSettings.realTime && !(serverSettings.lockStep && idle)) {
-    nextCycle = SteadyClock::now();
-    return;
+  if (serverSettings.realTime || (serverSettings.lockStep && idle)) {
+    // A timer, since waits of run_one_until() are rounded up to milliseconds.
+    bool over = false;
+    cycleTimer.expires_at(cycleBegan + kCycle);
+    cycleTimer.async_wait([&over](std::error_code) { over = true; });
+    while (!stopping && !over) io.run_one();
+    cycleTimer.cancel();
+    while (!over) io.run_one();
+    io.poll();
   }
-  nextCycle += kCycle;
-  const auto now = SteadyClock::now();
-  if (nextCycle < now) nextCycle = now;  // time that is lost is not caught up
-  while (!stopping && SteadyClock::now() < nextCycle) io.run_one_until(nextCycle);
-  io.poll();
+  const SteadyClock::time_point before = std::exchange(cycleBegan, SteadyClock::now());
+  if (serverSettings.realTime && !idle) statistics.delays.add(Seconds(cycleBegan - before - kCycle).count());
 }
 
 void Server::Implementation::waitForAnswers() {
-  const auto deadline = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
-                                                 std::chrono::duration<double>(serverSettings.answerTimeout));
+  const auto deadline =
+      SteadyClock::now() + std::chrono::round<SteadyClock::duration>(Seconds(serverSettings.answerTimeout));
   const auto allAnswered = [this] {
     return std::all_of(agents.begin(), agents.end(), [](const auto& link) {
       return !link->owesAnswer || link->givenUp || link->connection->dead() || link->hasAnswered();
@@ -152,6 +159,7 @@ void Server::Implementation::sendSense(AgentLink& link, const protocol::Percept&
       spdlog::info("server: {} reads again, it lost {} messages", describe(link), link.dropped);
     link.dropped = 0;
     ++link.sensesSent;
+    link.sensed = SteadyClock::now();
     link.owesAnswer = serverSettings.lockStep && !link.lobby;
     return;
   }
@@ -214,7 +222,7 @@ std::uint16_t Server::monitorPort() const {
 
 void Server::run() {
   Implementation& self = *implementation_;
-  self.nextCycle = SteadyClock::now();
+  self.cycleBegan = SteadyClock::now();
   while (!self.stopping) {
     if (self.lobbyOpen) {
       self.waitInLobby();

@@ -75,6 +75,8 @@ void Server::Implementation::agentMessage(AgentLink& link, std::string_view mess
   link.skipped += skipped;
   statistics.skippedExpressions += skipped;
   if (link.lobby) return lobbyMessage(link, effectors);
+  if (serverSettings.realTime && effectors.syn && !link.hasAnswered() && link.sensesSent > 0)
+    statistics.answers.add(Seconds(link.heard - link.sensed).count());
   if (link.inbox.size() < kMaxQueuedMessages) {
     link.inbox.push_back({effectors, link.sensesSent});
   } else {
@@ -131,7 +133,7 @@ void Server::Implementation::startMatch() {
     link->lobby.reset();
   }
   spdlog::info("server: the match starts with {} players", ready.size());
-  nextCycle = SteadyClock::now();
+  cycleBegan = SteadyClock::now();
 }
 
 }  // namespace nonet::sim

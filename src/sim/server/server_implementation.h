@@ -14,6 +14,7 @@
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <asio/signal_set.hpp>
+#include <asio/steady_timer.hpp>
 
 #include "nonet/sim/server/lobby.h"
 #include "nonet/sim/server/monitor.h"
@@ -26,6 +27,7 @@
 namespace nonet::sim {
 
 using SteadyClock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
 
 /// An agent's connection.
 struct AgentLink {
@@ -38,9 +40,10 @@ struct AgentLink {
   };
   std::deque<Received> inbox;
   long sensesSent = 0;
-  bool owesAnswer = false;  // lock-step: to the last sense message
-  bool givenUp = false;     // lock-step: not waited for
-  long dropped = 0;         // messages in a row
+  SteadyClock::time_point sensed;  // when the last was sent
+  bool owesAnswer = false;         // lock-step: to the last sense message
+  bool givenUp = false;            // lock-step: not waited for
+  long dropped = 0;                // messages in a row
   SteadyClock::time_point heard = SteadyClock::now();
   bool silent = false;  // not heard for kSilence, and said so
   int skipped = 0;
@@ -86,13 +89,14 @@ struct Server::Implementation {
   Admission admission;
   Monitors monitors;
   asio::signal_set signals;
+  asio::steady_timer cycleTimer;
   std::vector<std::unique_ptr<AgentLink>> agents;
   std::optional<MonitorLog> log;
   std::function<void(const Simulation&)> callback;
   Statistics statistics;
   std::atomic<bool> stopping{false};
   bool lobbyOpen = false;
-  SteadyClock::time_point nextCycle = SteadyClock::now();
+  SteadyClock::time_point cycleBegan = SteadyClock::now();
   long cycles = 0;
   long cyclesAfterEnd = 0;
   AgentHandle newborn = kNoAgent;  // whose robot was built last

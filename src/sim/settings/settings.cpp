@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "nonet/config/assignment.h"
 #include "nonet/sim/settings/declarations.h"
 
 namespace nonet::sim {
@@ -17,12 +18,6 @@ struct SettingsFile {
     visit.group("Soccer", self.settings);
   }
 };
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
 
 }  // namespace
 
@@ -63,7 +58,7 @@ void Settings::setAssignment(std::string_view assignment) {
   if (equals == std::string_view::npos) {
     throw config::ParameterError(fmt::format("'{}' is not of the form Name=Value", assignment));
   }
-  set(trimmed(assignment.substr(0, equals)), trimmed(assignment.substr(equals + 1)));
+  set(config::trimmed(assignment.substr(0, equals)), config::trimmed(assignment.substr(equals + 1)));
 }
 
 void Settings::overlayFile(const std::string& path) {

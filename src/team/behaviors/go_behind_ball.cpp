@@ -3,6 +3,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/math/straight_way.h"
 #include "nonet/team/behaviors.h"
 #include "nonet/team/way_behind.h"
 
@@ -16,14 +17,11 @@ namespace {
 // An opponent stands on the straight way from here to this place (robot frame, m).
 bool blocked(const Situation& s, const Vector2& place) {
   const Pose2 X_RF = s.world.self.X_FR.inverse();
-  const double length = std::max(place.norm(), 1e-6);
-  const Vector2 along = place / length;
+  const StraightWay way(Vector2::Zero(), place);
   for (const world::PlayerState& opponent : s.world.opponents) {
     if (!opponent.known) continue;
     const Vector2 p_RO = X_RF * opponent.X_FP.translation;
-    const double ahead = std::clamp(p_RO.dot(along), 0.0, length);
-    const bool before = p_RO.dot(along) > 0.0;
-    if (before && (p_RO - ahead * along).norm() < s.parameters.ball.circleRoom) return true;
+    if (way.placeOf(p_RO).ahead > 0.0 && way.distanceTo(p_RO) < s.parameters.ball.circleRoom) return true;
   }
   return false;
 }

@@ -3,6 +3,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/math/straight_way.h"
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 
@@ -26,16 +27,13 @@ bool isHeldUp(const Situation& s) {
 
 bool isFree(const Situation& s, const Vector2& to) {
   const AsideParameters& p = s.parameters.aside;
-  const Vector2 way = to - s.ball();
-  const double length = way.norm();
-  const Vector2 along = way / std::max(length, 1e-6);
+  const StraightWay way(s.ball(), to);
   return std::none_of(s.world.opponents.begin(), s.world.opponents.end(),
                       [&](const world::PlayerState& opponent) {
                         if (!opponent.known) return false;
-                        const Vector2 offset = opponent.X_FP.translation - s.ball();
-                        const double ahead = offset.dot(along);
-                        if (ahead < 0.0 || ahead > length) return false;
-                        return (offset - ahead * along).norm() < p.lane + p.laneGrowth * ahead;
+                        const auto [ahead, aside] = way.placeOf(opponent.X_FP.translation);
+                        if (ahead < 0.0 || ahead > way.length()) return false;
+                        return std::abs(aside) < p.lane + p.laneGrowth * ahead;
                       });
 }
 

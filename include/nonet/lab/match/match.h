@@ -7,12 +7,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "nonet/agent/agent.h"
 #include "nonet/agent/agent_setup.h"
+#include "nonet/math/duration_counts.h"
 #include "nonet/sim/invariants.h"
 #include "nonet/sim/settings/settings.h"
 #include "nonet/sim/simulation.h"
@@ -43,6 +45,10 @@ std::string matchTitle(const MatchSettings& match);
 
 /// The settings of a match as chosen: half time, automatic kick-off, names of the teams.
 sim::Settings simulationSettings(const MatchSettings& match);
+
+/// Names of the agents' parameters have a dot (team.ball.kick=false), those of the server's settings have
+/// none (QuickSolver=true).
+bool namesParameter(std::string_view assignment);
 
 /// One of the server's settings, Name=Value. Throws std::runtime_error for those that simulationSettings()
 /// overwrites, with the option that sets them.
@@ -81,6 +87,8 @@ struct MatchResult {
   std::uint64_t signature = 0;   // of the simulation at the end: equal matches have equal ones
   long timeouts = 0;             // lock-step: times that the server gave up waiting for an agent
   long droppedMessages = 0;      // that slow readers did not get
+  DurationCounts answers;        // real time: agents' answers, at the server
+  DurationCounts delays;         // real time: by which cycles began too late
   std::uint64_t violations = 0;  // of invariants, if they were watched
   std::string invariants;        // what was watched and found, lines; empty if not
   std::vector<PlayerRecord> players;

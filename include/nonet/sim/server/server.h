@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "nonet/math/duration_counts.h"
 #include "nonet/sim/settings/settings.h"
 #include "nonet/sim/simulation.h"
 
@@ -62,6 +63,9 @@ class Server {
     long droppedMessages = 0;  // sense and monitor messages that a slow reader did not get
     int timeouts = 0;          // lock-step: times that an agent was given up waiting for
     int skippedExpressions = 0;
+    // In real time:
+    DurationCounts answers;  // from a sense message to the agent's next one, ended by (syn)
+    DurationCounts delays;   // by which cycles began later than 20 ms after the one before
   };
   /// Not while another thread is in run().
   Statistics statistics() const;
