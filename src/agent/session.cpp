@@ -1,7 +1,6 @@
 #include "nonet/agent/session.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "nonet/protocol/percept_text.h"
 
@@ -19,7 +18,7 @@ std::string_view Session::begin() {
 
 void Session::receive(std::string_view message) {
   protocol::parsePercept(message, percept_);
-  countGap();
+  counts_.lostCycles += std::max(clock_.cyclesUntil(percept_.time) - 1, 0);
   ++counts_.messages;
   counts_.unknownTokens += percept_.unknownTokens;
   watchAcceptance();
@@ -47,18 +46,6 @@ void Session::keepOnce(const protocol::Effectors& older) {
   if (!outgoing_.beam) outgoing_.beam = older.beam;
   if (!outgoing_.say) outgoing_.say = older.say;
   outgoing_.pass = outgoing_.pass || older.pass;
-}
-
-// Times are printed with two decimals of a number that drifts, so a single step looks like 0.01 to 0.03 s and
-// two look like 0.03 to 0.05. The smoothed time tells them apart.
-void Session::countGap() {
-  constexpr double kSmoothing = 0.1;
-  const double expected = smoothTime_ + kCycleTime;
-  const double surplus = percept_.time - expected;
-  const long lost = counts_.messages > 0 ? std::lround(surplus / kCycleTime) : 0;
-  counts_.lostCycles += std::max(lost, 0L);
-  const bool steady = counts_.messages > 0 && lost == 0;
-  smoothTime_ = steady ? expected + kSmoothing * surplus : percept_.time;
 }
 
 void Session::watchAcceptance() {

@@ -42,7 +42,7 @@ BodyTracker::BodyTracker(const model::RobotModel& model, const WorldParameters& 
 }
 
 bool BodyTracker::update(const protocol::Percept& percept, BodyState& state) {
-  const int cycles = cyclesSince(percept.time);
+  const int cycles = clock_.cyclesUntil(percept.time);
   if (cycles == 0) return false;
   const double dt = cycles * kCycleTime;
   state.time = percept.time;
@@ -76,20 +76,6 @@ bool BodyTracker::update(const protocol::Percept& percept, BodyState& state) {
   previousKinematic_ = kinematic;
   first_ = false;
   return true;
-}
-
-int BodyTracker::cyclesSince(double time) {
-  if (first_) {
-    clock_ = time;
-    return 1;
-  }
-  // The printed time is rounded to 0.01 s, so single steps look like 0.01 or 0.03. Counting against a
-  // smoothed clock tells a lost message from rounding.
-  if (time - clock_ < 0.5 * kCycleTime - 0.005) return 0;
-  const int cycles = std::max(1, static_cast<int>(std::lround((time - clock_) / kCycleTime)));
-  clock_ += cycles * kCycleTime;
-  clock_ += std::clamp(time - clock_, -0.5 * kCycleTime, 0.5 * kCycleTime) * 0.1;
-  return cycles;
 }
 
 void BodyTracker::readJoints(const protocol::Percept& percept, double dt, BodyState& state) {

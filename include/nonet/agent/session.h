@@ -13,6 +13,7 @@
 #include "nonet/agent/agent.h"
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
+#include "nonet/protocol/server_clock.h"
 
 namespace nonet::agent {
 
@@ -61,7 +62,6 @@ class Session {
   static constexpr int kRefusalPatience = 50;
 
  private:
-  void countGap();
   void watchAcceptance();
   void keepOnce(const protocol::Effectors& older);
   std::string_view write();
@@ -74,8 +74,8 @@ class Session {
   SessionCounts counts_;
   std::string text_;
   Stage stage_ = Stage::Connecting;
-  int pending_ = 0;          // messages since the last answer
-  double smoothTime_ = 0.0;  // estimate of the server's time at the last message, s
+  int pending_ = 0;  // messages since the last answer
+  protocol::ServerClock clock_;
 };
 
 }  // namespace nonet::agent

@@ -15,6 +15,7 @@
 
 #include "nonet/model/robot_model.h"
 #include "nonet/protocol/percept.h"
+#include "nonet/protocol/server_clock.h"
 #include "nonet/world/body_state.h"
 #include "nonet/world/parameters.h"
 
@@ -41,7 +42,6 @@ class BodyTracker {
     double sigma = 1.0;
   };
 
-  int cyclesSince(double time);
   void readJoints(const protocol::Percept& percept, double dt, BodyState& state);
   void readForces(const protocol::Percept& percept, BodyState& state);
   void integrateOrientation(int cycles, BodyState& state);
@@ -58,7 +58,7 @@ class BodyTracker {
   const model::RobotModel* model_;
   WorldParameters parameters_;
   bool first_ = true;
-  double clock_ = 0.0;  // estimate of the server's time behind its two printed decimals, s
+  protocol::ServerClock clock_;
   // The previous cycle.
   Matrix3 previousR_GR_ = Matrix3::Identity();
   Vector3 previousGyro_ = Vector3::Zero();
