@@ -64,8 +64,9 @@ class Server {
     int timeouts = 0;          // lock-step: times that an agent was given up waiting for
     int skippedExpressions = 0;
     // In real time:
-    DurationCounts answers;  // from a sense message to the agent's next one, ended by (syn)
-    DurationCounts delays;   // by which cycles began later than 20 ms after the one before
+    DurationCounts
+        answers;  // from a sense message until the answer, ended by (syn), is read: after the physics
+    DurationCounts delays;  // by which cycles began later than 20 ms after the one before
   };
   /// Not while another thread is in run().
   Statistics statistics() const;
