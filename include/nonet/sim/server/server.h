@@ -64,9 +64,8 @@ class Server {
     int timeouts = 0;          // lock-step: times that an agent was given up waiting for
     int skippedExpressions = 0;
     // In real time:
-    DurationCounts
-        answers;  // from a sense message until the answer, ended by (syn), is read: after the physics
-    DurationCounts delays;  // by which cycles began later than 20 ms after the one before
+    DurationCounts answers;  // from a sense message until its answer is read, after the physics
+    DurationCounts delays;   // by which cycles began later than 20 ms after the one before
   };
   /// Not while another thread is in run().
   Statistics statistics() const;
