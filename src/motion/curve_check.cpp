@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/math/rotation.h"
 #include "nonet/model/kinematics.h"
 #include "nonet/motion/foot_curve.h"
 #include "nonet/motion/limbs.h"
@@ -19,8 +20,7 @@ constexpr Side kStance = Side::Right;  // of the kick with the left foot
 // The sole is flat on the ground, so it tells which way is up; the heading is the torso's.
 Matrix3 levelFrame(const Pose3& X_RS) {
   const Vector3 ahead = X_RS.linear().col(0);
-  return Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()), Vector3::UnitZ()).toRotationMatrix() *
-         X_RS.linear().transpose();
+  return turnAboutZ(std::atan2(ahead.y(), ahead.x())) * X_RS.linear().transpose();
 }
 
 // The ball seen from the stance foot, which the weight's shift does not move.

@@ -53,7 +53,7 @@ Pose3 PoseBelief::pose() const {
 }
 
 Pose2 PoseBelief::ground() const {
-  return {p_WR.x(), p_WR.y(), std::atan2(R_WR(1, 0), R_WR(0, 0))};
+  return {p_WR.x(), p_WR.y(), yawOf(R_WR)};
 }
 
 /// Everything one update works on.

@@ -25,8 +25,8 @@ class PrintedTime {
   float time_;
 };
 
-// Whole days of a server: beyond 512 s a step of the sum is 0.02002 s, and the print changes sides every ten
-// seconds; there every message is to count as one cycle.
+// Twenty minutes, from many starts: beyond 512 s a step of the sum is 0.02002 s, and the print changes sides
+// every ten seconds; there every message is to count as one cycle.
 TEST(ServerClock, EveryMessageIsOneCycle) {
   Random random(1);
   for (int run = 0; run < 40; ++run) {

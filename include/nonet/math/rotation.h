@@ -16,7 +16,7 @@ inline Matrix3 turnAboutZ(double angle) {
   return Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
 }
 
-/// v as in skew(v) * w = v x w.
+/// The matrix [v] with [v] w = v cross w.
 inline Matrix3 skew(const Vector3& v) {
   Matrix3 m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;

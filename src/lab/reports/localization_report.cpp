@@ -8,6 +8,7 @@
 
 #include "nonet/lab/common/statistics.h"
 #include "nonet/math/angle.h"
+#include "nonet/math/rotation.h"
 
 namespace nonet::lab {
 
@@ -72,7 +73,7 @@ void LocalizationReport::record(const world::WorldState& world, const Vector3& p
   frame.believed = world.self.X_FC.translation();
   frame.truth = p_FC;
   const Matrix3 R_FC = world.self.X_FC.linear();
-  frame.believedHeading = std::atan2(R_FC(1, 0), R_FC(0, 0));
+  frame.believedHeading = yawOf(R_FC);
   frame.trueHeading = heading;
   frame.covariance = world.self.cameraCovariance.topLeftCorner<2, 2>();
   frame.rounded = rounded;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/math/rotation.h"
+
 namespace nonet::motion {
 
 using model::Side;
@@ -89,8 +91,7 @@ void WalkEngine::footPoses(const WalkParameters& p, FootPoses& feet) const {
       sole.pitch += ankle.pitch;
       sole.roll += ankle.roll;
     }
-    const Matrix3 R_TS =
-        Eigen::AngleAxisd(foot.rotation, Vector3::UnitZ()).toRotationMatrix() * rotationOf(sole);
+    const Matrix3 R_TS = turnAboutZ(foot.rotation) * rotationOf(sole);
     feet[index(side)].linear() = R_RT * R_TS;
     feet[index(side)].translation() = R_RT * p_TS;
   }

@@ -20,7 +20,7 @@ const Vector3d kGravityVector(0.0, 0.0, -kGravity);
 /// Gyroscopic torque, implicit in the step [Lacoursiere 2006], as ODE has it: (I (I - h [L])^-1 - 1) L / h.
 Vector3d gyroscopicTorque(const Matrix3d& inertia, const Vector3d& rate, double seconds) {
   const Vector3d momentum = inertia * rate;
-  const Matrix3d effective = inertia - seconds * crossMatrix(momentum);
+  const Matrix3d effective = inertia - seconds * skew(momentum);
   return (inertia * effective.inverse() * momentum - momentum) / seconds;
 }
 
@@ -151,7 +151,7 @@ void ArticulatedBodySolver::computeInertias() {
   articulatedInertias_ = inertias_;
   for (std::size_t i = links_.size(); i-- > 1;) {
     Joint& joint = joints_[i];
-    Matrix6 inertia = inertiaSeenFrom(articulatedInertias_[i], crossMatrix(joint.childArm));
+    Matrix6 inertia = inertiaSeenFrom(articulatedInertias_[i], skew(joint.childArm));
     joint.axisMomentum = inertia.rightCols<3>() * joint.axis;
     joint.axisInertia = joint.axis.dot(joint.axisMomentum.tail<3>());
     const bool free = joint.row != AxisRow::Constraint;
@@ -168,7 +168,7 @@ void ArticulatedBodySolver::computeInertias() {
     }
     joint.apparentInertia = joint.transmission * inertia;
     articulatedInertias_[static_cast<std::size_t>(links_[i].parent)] +=
-        inertiaSeenFrom(joint.apparentInertia, -crossMatrix(joint.parentArm));
+        inertiaSeenFrom(joint.apparentInertia, -skew(joint.parentArm));
   }
   rootFactors_.compute(articulatedInertias_[0]);
 }

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <ode/ode.h>
 
+#include "nonet/math/rotation.h"
+
 namespace nonet::sim {
 
 /// Linear, then angular: a velocity (m/s, rad/s) or an impulse (N s, N m s).
@@ -22,13 +24,6 @@ inline Eigen::Matrix3d rotationOf(dBodyID body) {
   const dReal* r = dBodyGetRotation(body);
   Eigen::Matrix3d matrix;
   matrix << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
-  return matrix;
-}
-
-/// The matrix [v] with [v] x = v cross x.
-inline Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
   return matrix;
 }
 
