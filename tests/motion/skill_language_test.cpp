@@ -149,6 +149,9 @@ TEST(SkillLanguage, KicksThatNameTheDistanceScaleWithIt) {
   const KickInputs inputs = 6.0 * KickInputs::Unit(kDistanceInput);
   EXPECT_NEAR(skill.program[0].duration.at(inputs), 0.1 + 0.02 * (6.0 - 4.0), 1e-12);
   EXPECT_TRUE(parseOne(head + "swing over 0.1s { left.knee -1rad - 0rad * distance }").kick->scales);
+  const Skill steep = parseOne(head + "move over 0.1s + 0.03s * (distance - 4) { left.knee -1rad }");
+  EXPECT_LT(steep.program[0].duration.constant, 0.0);
+  EXPECT_NEAR(steep.program[0].duration.at(inputs), 0.1 + 0.03 * (6.0 - 4.0), 1e-12);
   EXPECT_FALSE(parseOne(head + "swing over 0.1s { left.knee -1rad - 1rad * turn }").kick->scales);
 }
 
@@ -190,6 +193,7 @@ TEST(SkillLanguage, ErrorsNameFileLineAndColumn) {
       {"skill a { wait 10deg }", "test.skl:1:16: a value in s is needed"},
       {"skill a { wait 10kg }", "test.skl:1:16: unknown unit 'kg'"},
       {"skill a { wait 0s }", "test.skl:1:16: must be more than zero"},
+      {"skill a { move over 0.1s - 0.1s { } }", "test.skl:1:21: must be more than zero"},
       {"skill a { move over 1s { left.knee x } }", "unknown parameter 'x'"},
       {"skill a { parameter x = 5 in 6..7 }", "test.skl:1:21: the default lies outside"},
       {"skill a { parameter x = 5 parameter x = 5 }", "exists already"},
