@@ -117,6 +117,7 @@ void checkBefore(MatchArguments& arguments) {
     throw std::runtime_error("--left and --right must be different names");
   for (const std::string& name : {match.left.name, match.right.name}) checkTeamName(name);
   for (lab::TeamSettings* team : {&match.left, &match.right}) {
+    if (team->players > 0) lab::checkRobotTypes(team->robotTypes, team->players);
     if (team->dataFolder.empty()) team->dataFolder = arguments.data;
     const std::string data = dataFolder(team->dataFolder);
     std::set<int> types;
@@ -194,6 +195,14 @@ void addTeamOptions(CLI::App* command, MatchArguments& arguments) {
       ->allow_extra_args(false);
   command->add_option("--right-set", match.right.assignments, "The same of the right team's")
       ->allow_extra_args(false);
+  command
+      ->add_option("--left-types", match.left.robotTypes,
+                   "Robot types of the left team from number 1 on, such as 0,2,2,2,2,2,2,2,4")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 4));
+  command->add_option("--right-types", match.right.robotTypes, "The same of the right team")
+      ->delimiter(',')
+      ->check(CLI::Range(0, 4));
   command->add_option("--data", arguments.data, "Folder with params/ and skills/ for both teams")
       ->check(CLI::ExistingDirectory);
 }

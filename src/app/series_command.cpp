@@ -39,11 +39,13 @@ lab::SideSettings sideOf(const SideArguments& arguments, const std::string& data
       lab::sideFromWord(arguments.binary.empty() ? arguments.word : arguments.binary, dataFolder);
   side.name = arguments.side.name;
   side.assignments = arguments.side.assignments;
+  side.robotTypes = arguments.side.robotTypes;
   for (const std::string& file : arguments.side.parameterFiles)
     side.parameterFiles.push_back(std::filesystem::absolute(file).string());
-  if (!side.command.empty() && (!side.assignments.empty() || !side.parameterFiles.empty()))
+  if (!side.command.empty() &&
+      (!side.assignments.empty() || !side.parameterFiles.empty() || !side.robotTypes.empty()))
     throw std::runtime_error(
-        fmt::format("{}: a foreign command takes no parameters of ours", arguments.word));
+        fmt::format("{}: a foreign command takes no parameters or robot types of ours", arguments.word));
   return side;
 }
 
@@ -68,6 +70,7 @@ int runSeries(SeriesArguments& arguments) {
   for (const lab::SideSettings* side : {&settings.a, &settings.b}) {
     checkTeamName(side->name);
     lab::checkSide(*side, data);
+    lab::checkRobotTypes(side->robotTypes, settings.players);
   }
   if (!arguments.sequential.empty()) settings.sequential = lab::parseSequentialBounds(arguments.sequential);
   settings.place = lab::placeFor(settings);
@@ -104,6 +107,11 @@ void addSideOptions(CLI::App& command, const std::string& letter, const std::str
       .add_option(fmt::format("--{}-params,--{}-params", letter, alias), side.parameterFiles,
                   fmt::format("Parameter files of side {}", letter))
       ->check(CLI::ExistingFile);
+  command
+      .add_option(fmt::format("--{}-types,--{}-types", letter, alias), side.robotTypes,
+                  fmt::format("Robot types of side {} from number 1 on, such as 0,2,2,2,2,2,2,2,4", letter))
+      ->delimiter(',')
+      ->check(CLI::Range(0, 4));
   command
       .add_option(fmt::format("--{}-name", letter), side.name, fmt::format("Team name of side {}", letter))
       ->capture_default_str();
@@ -174,6 +182,7 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
       "Examples:\n"
       "  nonet series own wall --pairs 10 --minutes 4\n"
       "  nonet series own own --b-set team.formation.stopperBehind=3 --sprt 0,0.5 --pairs 500\n"
+      "  nonet series own own --a-types 0,3,3,3,3,3,3,3,4 --pairs 20          other robot types\n"
       "  nonet series own ../before --pairs 50 --out logs/now-before          other data, same program\n"
       "  nonet series own --b-binary ../before/build/release/nonet            an older program\n"
       "  nonet series own 'cd ~/others && ./start.sh {host} {port} {team}' --where realtime --jobs 1\n"

@@ -41,6 +41,7 @@ int runTable(TableArguments& arguments) {
     checkTeamName(side.name);
     try {
       lab::checkSide(side, data);
+      lab::checkRobotTypes(side.robotTypes, table.games.players);
     } catch (const std::exception& error) {
       throw std::runtime_error(fmt::format("{}: side '{}': {}", arguments.file, side.name, error.what()));
     }

@@ -190,7 +190,7 @@ class Parser : private SkillReader {
 
   KickValue duration() {
     const SkillToken& first = peek();
-    const KickValue result = kickValue(Unit::Second);
+    KickValue result = kickValue(Unit::Second);
     // What varies is bounded where it is played: its constant alone, for a ball that lies nowhere, says nothing.
     const bool varies = !result.per.isZero(0.0);
     if (!varies && !(result.constant > 0.0)) failAt(first, "must be more than zero");

@@ -10,7 +10,9 @@
 
 #include "nonet/config/assignment.h"
 #include "nonet/math/angle.h"
+#include "nonet/model/robot_model.h"
 #include "nonet/protocol/play_mode.h"
+#include "nonet/sim/referee/game_state.h"
 #include "nonet/sim/server/lobby.h"
 #include "nonet/sim/server/monitor.h"
 
@@ -45,7 +47,35 @@ void enter(std::vector<InProcessPlayer>& players, sim::Simulation& simulation, s
   }
 }
 
+int robotTypeOf(const TeamSettings& team, int unum) {
+  return team.robotTypes.empty() ? agent::usualRobotType(unum)
+                                 : team.robotTypes.at(static_cast<std::size_t>(unum - 1));
+}
+
 }  // namespace
+
+void checkRobotTypes(const std::vector<int>& robotTypes, int players) {
+  if (robotTypes.empty()) return;
+  if (robotTypes.size() != static_cast<std::size_t>(players))
+    throw std::runtime_error(fmt::format("{} robot types for {} players: give one for each, such as 0,2,2,4",
+                                         robotTypes.size(), players));
+  const sim::Settings settings;
+  sim::GameState state(settings);
+  for (int unum = 1; unum <= players; ++unum) {
+    const int type = robotTypes[static_cast<std::size_t>(unum - 1)];
+    if (type < 0 || type >= model::kRobotTypeCount)
+      throw std::runtime_error(
+          fmt::format("robot type {}: there are 0 to {}", type, model::kRobotTypeCount - 1));
+    sim::TeamSide side = sim::TeamSide::None;
+    int number = unum;
+    if (state.registerPlayer("team", type, side, number, settings) != sim::GameState::Refusal::None)
+      throw std::runtime_error(
+          fmt::format("the server would refuse number {} of type {}: at most {} of one type, {} of any two, at "
+                      "least {} types in a team of eleven",
+                      unum, type, settings.maxRobotTypeCount, settings.maxSumTwoRobotTypes,
+                      settings.minRobotTypesCount));
+  }
+}
 
 std::string matchTitle(const MatchSettings& match) {
   if (match.right.players == 0)
@@ -87,7 +117,7 @@ agent::AgentChoice agentChoice(const MatchSettings& match, bool rightTeam, int u
   agent::AgentChoice agent;
   agent.unum = unum;
   agent.team = team.name;
-  agent.robotType = agent::usualRobotType(unum);
+  agent.robotType = robotTypeOf(team, unum);
   agent.seed = agent::agentSeed(match.seed, rightTeam, unum);
   agent.parameterFiles = team.parameterFiles;
   agent.assignments = team.assignments;
@@ -105,7 +135,7 @@ MatchWatcher::MatchWatcher(const MatchSettings& match) {
       player.rightTeam = rightTeam;
       player.team = team.name;
       player.unum = unum;
-      player.robotType = agent::usualRobotType(unum);
+      player.robotType = robotTypeOf(team, unum);
       result_.players.push_back(player);
     }
   }

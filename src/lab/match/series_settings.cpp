@@ -30,6 +30,7 @@ ordered_json sideJson(const SideSettings& side) {
           {"command", side.command},
           {"params", side.parameterFiles},
           {"set", side.assignments},
+          {"types", side.robotTypes},
           {"fingerprint", side.fingerprint}};
 }
 
@@ -41,6 +42,7 @@ SideSettings sideFromJson(const ordered_json& json) {
   side.command = json.at("command").get<std::string>();
   side.parameterFiles = json.at("params").get<std::vector<std::string>>();
   side.assignments = json.at("set").get<std::vector<std::string>>();
+  side.robotTypes = json.value("types", std::vector<int>());  // series of before have none
   side.fingerprint = json.at("fingerprint").get<std::string>();
   return side;
 }
@@ -71,6 +73,7 @@ TeamSettings teamOf(const SeriesSettings& settings, bool sideB, const std::strin
   team.parameterFiles = side.parameterFiles;
   if (!side.assignments.empty()) team.parameterFiles.push_back(overlayFile(overlayFolder, sideB));
   team.dataFolder = side.dataFolder;
+  team.robotTypes = side.robotTypes;
   return team;
 }
 
@@ -130,6 +133,7 @@ std::string SideSettings::describe() const {
                                            : "own";
   for (const std::string& file : parameterFiles) text += " + " + file;
   for (const std::string& assignment : assignments) text += " + " + assignment;
+  if (!robotTypes.empty()) text += fmt::format(" + types {}", fmt::join(robotTypes, ","));
   return text;
 }
 

@@ -71,10 +71,12 @@ SideSettings readSide(const toml::table& table, const std::string& path, const s
   std::string word;
   std::vector<std::string> files;
   std::vector<std::string> assignments;
+  std::vector<int> robotTypes;
   reader.take("name", name);
   reader.take("side", word);
   reader.takeList("params", files);
   reader.takeList("set", assignments);
+  reader.takeList("types", robotTypes);
   reader.end();
   if (name.empty()) reader.fail(table, "a side needs a name");
   const fs::path folder = fs::path(path).parent_path();
@@ -88,9 +90,10 @@ SideSettings readSide(const toml::table& table, const std::string& path, const s
   }
   side.name = name;
   side.assignments = assignments;
+  side.robotTypes = robotTypes;
   for (const std::string& file : files) side.parameterFiles.push_back(besideFile(file, folder));
-  if (!side.command.empty() && (!files.empty() || !assignments.empty()))
-    reader.fail(table, "a foreign command takes no parameters of ours");
+  if (!side.command.empty() && (!files.empty() || !assignments.empty() || !robotTypes.empty()))
+    reader.fail(table, "a foreign command takes no parameters or robot types of ours");
   return side;
 }
 

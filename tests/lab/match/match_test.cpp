@@ -51,6 +51,26 @@ TEST(Match, UsualTypesPassTheServersRules) {
   }
 }
 
+TEST(Match, TypesOfATeamAreThoseThatWereGiven) {
+  MatchSettings match;
+  match.right.robotTypes = {1, 3, 3, 3, 3, 3, 3, 3, 4};
+  EXPECT_EQ(agentChoice(match, true, 1).robotType, 1);
+  EXPECT_EQ(agentChoice(match, true, 9).robotType, 4);
+  EXPECT_EQ(agentChoice(match, false, 2).robotType, agent::usualRobotType(2));
+  const MatchWatcher watcher(match);
+  EXPECT_EQ(watcher.result().players.back().robotType, 4);
+}
+
+TEST(Match, TypesThatTheServerWouldRefuseAreRefused) {
+  EXPECT_NO_THROW(checkRobotTypes({}, 9));
+  EXPECT_NO_THROW(checkRobotTypes({0, 2, 2, 2, 2, 2, 2, 2, 4}, 9));
+  EXPECT_NO_THROW(checkRobotTypes({4, 4, 0, 0, 0, 0, 0, 0, 0}, 9));
+  EXPECT_THROW(checkRobotTypes({0, 2, 2}, 9), std::runtime_error);                    // too few
+  EXPECT_THROW(checkRobotTypes({0, 2, 5}, 3), std::runtime_error);                    // no such type
+  EXPECT_THROW(checkRobotTypes({2, 2, 2, 2, 2, 2, 2, 2, 4}, 9), std::runtime_error);  // eight of one
+  EXPECT_THROW(checkRobotTypes({4, 4, 4, 4, 4, 2, 2, 2, 2, 2}, 10), std::runtime_error);
+}
+
 TEST(Match, IsPlayedToTheEnd) {
   MatchSettings match = shortMatch(1);
   match.check = true;

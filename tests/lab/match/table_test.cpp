@@ -51,6 +51,7 @@ name = "boxes"
 name = "high"
 side = "own"
 set = ["team.formation.stopperBehind=3"]
+types = [0, 3, 3, 3, 3, 3, 3, 3, 4]
 )";
 
 SeriesResult resultOf(std::vector<double> pairs, int wins, int losses) {
@@ -76,6 +77,8 @@ TEST(Table, IsReadFromAFile) {
   ASSERT_EQ(table.sides[1].parameterFiles.size(), 1U);
   EXPECT_THAT(table.sides[1].parameterFiles[0], HasSubstr("params/variants/boxes.toml"));
   EXPECT_EQ(table.sides[2].assignments.at(0), "team.formation.stopperBehind=3");
+  EXPECT_EQ(table.sides[2].robotTypes, (std::vector<int>{0, 3, 3, 3, 3, 3, 3, 3, 4}));
+  EXPECT_THAT(table.sides[2].describe(), HasSubstr("types 0,3,3,3,3,3,3,3,4"));
 }
 
 TEST(Table, EverybodyAgainstEverybodyOrOneAgainstAll) {

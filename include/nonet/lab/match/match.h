@@ -27,6 +27,7 @@ struct TeamSettings {
   std::vector<std::string> parameterFiles;
   std::string dataFolder;                // with params/ and skills/; empty: the program's own
   std::vector<std::string> assignments;  // single parameters, set last
+  std::vector<int> robotTypes = {};      // of the numbers from 1; empty: the usual ones
 };
 
 struct MatchSettings {
@@ -39,6 +40,10 @@ struct MatchSettings {
   std::string monitorLog;  // file for the monitor stream, none if empty
   bool check = false;      // watch the simulation's invariants
 };
+
+/// Throws std::runtime_error if there is not one type for each player, or the server would refuse one of them
+/// (server facts 1.4). No types at all are the usual ones.
+void checkRobotTypes(const std::vector<int>& robotTypes, int players);
 
 /// Who plays, for people.
 std::string matchTitle(const MatchSettings& match);

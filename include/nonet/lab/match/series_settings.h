@@ -22,6 +22,7 @@ struct SideSettings {
   std::string command;     // starts agents of any kind; {host} {port} {monitor} {team} are filled in
   std::vector<std::string> parameterFiles;  // overlaid in this order
   std::vector<std::string> assignments;     // "key=value", overlaid after the files
+  std::vector<int> robotTypes;              // of the numbers from 1; empty: the usual ones
   std::string fingerprint;  // of all that (fingerprintOf()), so that a changed side is noticed
 
   /// Can play in this process.
