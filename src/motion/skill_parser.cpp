@@ -191,7 +191,7 @@ class Parser : private SkillReader {
   KickValue duration() {
     const SkillToken& first = peek();
     KickValue result = kickValue(Unit::Second);
-    // What varies is bounded where it is played: its constant alone, for a ball that lies nowhere, says nothing.
+    // What varies is bounded where it is played; its constant alone says nothing.
     const bool varies = !result.per.isZero(0.0);
     if (!varies && !(result.constant > 0.0)) failAt(first, "must be more than zero");
     return result;
