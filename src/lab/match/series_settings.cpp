@@ -24,14 +24,9 @@ using nlohmann::ordered_json;
 constexpr const char* kVariants = "/params/variants";  // in the data folder
 
 ordered_json sideJson(const SideSettings& side) {
-  return {{"name", side.name},
-          {"data", side.dataFolder},
-          {"executable", side.executable},
-          {"command", side.command},
-          {"params", side.parameterFiles},
-          {"set", side.assignments},
-          {"types", side.robotTypes},
-          {"fingerprint", side.fingerprint}};
+  return {{"name", side.name},        {"data", side.dataFolder},        {"executable", side.executable},
+          {"command", side.command},  {"params", side.parameterFiles},  {"set", side.assignments},
+          {"types", side.robotTypes}, {"fingerprint", side.fingerprint}};
 }
 
 SideSettings sideFromJson(const ordered_json& json) {
