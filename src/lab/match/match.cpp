@@ -69,11 +69,10 @@ void checkRobotTypes(const std::vector<int>& robotTypes, int players) {
     sim::TeamSide side = sim::TeamSide::None;
     int number = unum;
     if (state.registerPlayer("team", type, side, number, settings) != sim::GameState::Refusal::None)
-      throw std::runtime_error(
-          fmt::format("the server would refuse number {} of type {}: at most {} of one type, {} of any two, at "
-                      "least {} types in a team of eleven",
-                      unum, type, settings.maxRobotTypeCount, settings.maxSumTwoRobotTypes,
-                      settings.minRobotTypesCount));
+      throw std::runtime_error(fmt::format(
+          "the server would refuse number {} of type {}: at most {} of one type, {} of any two, at "
+          "least {} types in a team of eleven",
+          unum, type, settings.maxRobotTypeCount, settings.maxSumTwoRobotTypes, settings.minRobotTypesCount));
   }
 }
 
