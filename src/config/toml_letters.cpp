@@ -5,6 +5,7 @@ namespace nonet::config {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kBeforeTexts = " \t\r\n=,[{.";  // one of these stands before a text in quotes
 
 // Where the next byte stands.
 class Place {
@@ -13,6 +14,13 @@ class Place {
 
   // Reads what begins the text, as long as it belongs together: an escape or three quotes. Its length.
   std::size_t read(std::string_view text) {
+    const std::size_t length = lengthOf(text);
+    before_ = text[length - 1];
+    return length;
+  }
+
+ private:
+  std::size_t lengthOf(std::string_view text) {
     const char c = text.front();
     if (c == '\n') {
       comment_ = false;
@@ -29,7 +37,6 @@ class Place {
     return 1;
   }
 
- private:
   static bool isThreefold(std::string_view text) {
     return text.size() >= 3 && text[1] == text[0] && text[2] == text[0];
   }
@@ -37,6 +44,8 @@ class Place {
   std::size_t open(std::string_view text) {
     comment_ = text.front() == '#';
     if (text.front() != '"' && text.front() != '\'') return 1;
+    // In the middle of a number (2"x") it is a mistake, and toml++ reads on without heeding it.
+    if (kBeforeTexts.find(before_) == std::string_view::npos) return 1;
     quote_ = text.front();
     threefold_ = isThreefold(text);
     return threefold_ ? 3 : 1;
@@ -53,6 +62,7 @@ class Place {
   bool comment_ = false;
   char quote_ = 0;  // 0: outside of texts
   bool threefold_ = false;
+  char before_ = '\n';
 };
 
 }  // namespace

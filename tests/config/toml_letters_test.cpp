@@ -14,6 +14,10 @@ TEST(TomlLetters, MayStandInCommentsAndQuotes) {
                                 "a = 1\n"),
             0u)
       << "the mark that some editors begin files with";
+  EXPECT_EQ(
+      lineOfForeignLetter("a.'\xC3\xB6' = {b = [\"\xC3\xB6\",'\xC3\xB6', [\"\xC3\xB6\"]], \"\xC3\xB6\"=1}\n"),
+      0u)
+      << "wherever a text may begin";
 }
 
 TEST(TomlLetters, AreFoundElsewhere) {
@@ -27,6 +31,7 @@ TEST(TomlLetters, AreFoundElsewhere) {
   EXPECT_EQ(lineOfForeignLetter("a = \"b\n\xC3\xB6\n"), 2u) << "a text ends with its line";
   EXPECT_EQ(lineOfForeignLetter("a = \"\"\"\nb # \" c\n\xC3\xB6\"\"\"\n"), 3u)
       << "but for one in three quotes";
+  EXPECT_EQ(lineOfForeignLetter("a = 2\"\"b\"c\xC3\xB6\"\n"), 1u) << "a quote in a number begins no text";
   EXPECT_EQ(lineOfForeignLetter("a = '''b''' # \xC3\xB6\nb = \"\"\"c\"\"\" \xC3\xB6"), 2u);
 }
 

@@ -54,6 +54,7 @@ KickStatistics statisticsOf(const std::string& name, const motion::KickHead& hea
   for (const Kick& kick : kicks) {
     s.falls += kick.fell ? share : 0.0;
     s.misses += kick.missed() ? share : 0.0;
+    s.selfCollisions += kick.selfCollided ? share : 0.0;
     if (s.clears) *s.clears += kick.clears(head) ? share : 0.0;
     s.under2m += kick.tooShort() ? share : 0.0;
     distances.push_back(kick.forward);
@@ -127,22 +128,25 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
 }
 
 std::string kickReportTable(const std::vector<KickStatistics>& report) {
-  std::string out = fmt::format(
-      "{:<20} {:>7} {:>6} {:>6} {:>9} | {:>6} {:>7} {:>6} {:>8} | {:>8} {:>6} {:>7}\n", "kick", "trials",
-      "falls", "misses", "under 2 m", "mean m", "median", "p10", "of asked", "off deg", "time s", "high m");
+  std::string out =
+      fmt::format("{:<20} {:>7} {:>6} {:>6} {:>6} {:>9} | {:>6} {:>7} {:>6} {:>8} | {:>8} {:>6} {:>7}\n",
+                  "kick", "trials", "falls", "fouls", "misses", "under 2 m", "mean m", "median", "p10",
+                  "of asked", "off deg", "time s", "high m");
   for (const KickStatistics& s : report) {
     out += fmt::format(
-        "{:<20} {:>7} {:>5.1f}% {:>5.1f}% {:>8.1f}% | {:>6.2f} {:>7.2f} {:>6.2f} {:>7.0f}% | {:>8.1f} "
+        "{:<20} {:>7} {:>5.1f}% {:>5.1f}% {:>5.1f}% {:>8.1f}% | {:>6.2f} {:>7.2f} {:>6.2f} {:>7.0f}% | "
+        "{:>8.1f} "
         "{:>6.2f} "
         "{:>7.2f}\n",
-        s.name, s.trials, 100.0 * s.falls, 100.0 * s.misses, 100.0 * s.under2m, s.distance.mean,
-        s.distance.median, s.distance.p10, 100.0 * s.reached.median, toDegrees(s.directionError.mean),
-        s.time.mean, s.height.mean);
+        s.name, s.trials, 100.0 * s.falls, 100.0 * s.selfCollisions, 100.0 * s.misses, 100.0 * s.under2m,
+        s.distance.mean, s.distance.median, s.distance.p10, 100.0 * s.reached.median,
+        toDegrees(s.directionError.mean), s.time.mean, s.height.mean);
   }
   for (const KickStatistics& s : report)
     if (s.clears)
       out += fmt::format("{:<20} {:.1f}% high enough a metre on, and down soon enough\n", s.name,
                          100.0 * *s.clears);
+  out += "fouls: the referee froze limbs that collided with the robot's own\n";
   out += "\nwhat the heads should say of the balls' flights:\n";
   for (const KickStatistics& s : report)
     out += fmt::format("{:<20} flies {:.2f}m at {:.1f}m within {:.2f}m\n", s.name, s.apex.median,
@@ -167,7 +171,8 @@ std::string kickReportJson(const std::vector<KickStatistics>& report, const Kick
                     {"under_2m", s.under2m},
                     {"within_10_deg", s.withinTen},
                     {"misses", s.misses},
-                    {"falls", s.falls}};
+                    {"falls", s.falls},
+                    {"self_collisions", s.selfCollisions}};
     if (s.clears) json[s.name]["clears"] = *s.clears;
   }
   return json.dump(2) + "\n";

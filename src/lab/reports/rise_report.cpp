@@ -36,6 +36,7 @@ RiseReport measureRising(const RiseReportSettings& settings) {
       const Rise& rise = rises[kind * static_cast<std::size_t>(settings.falls) + static_cast<std::size_t>(i)];
       if (!rise.fell) continue;
       ++statistics.falls;
+      if (rise.collided > 0.0) ++statistics.selfCollisions;
       if (!rise.stands) continue;
       ++statistics.risen;
       if (rise.attempts == 1) ++statistics.firstTry;
@@ -50,24 +51,23 @@ RiseReport measureRising(const RiseReportSettings& settings) {
 }
 
 std::string riseReportTable(const RiseReport& report) {
-  std::string out = "fall    falls  first try  risen  median s  slowest s\n";
+  std::string out = "fall    falls  first try  risen  fouls  median s  slowest s\n";
   for (std::size_t kind = 0; kind < kFallKindCount; ++kind) {
     const RiseStatistics& s = report.kinds[kind];
-    out += fmt::format("{:<6} {:6} {:10} {:6} {:9.2f} {:10.2f}\n", kNames[kind], s.falls, s.firstTry, s.risen,
-                       s.median, s.slowest);
+    out += fmt::format("{:<6} {:6} {:10} {:6} {:6} {:9.2f} {:10.2f}\n", kNames[kind], s.falls, s.firstTry,
+                       s.risen, s.selfCollisions, s.median, s.slowest);
   }
-  return out;
+  return out +
+         "fouls: limbs of the robot collided, for which the referee would have frozen them for a second\n";
 }
 
 std::string riseReportJson(const RiseReport& report) {
   nlohmann::ordered_json json;
   for (std::size_t kind = 0; kind < kFallKindCount; ++kind) {
     const RiseStatistics& s = report.kinds[kind];
-    json[kNames[kind]] = {{"falls", s.falls},
-                          {"first_try", s.firstTry},
-                          {"risen", s.risen},
-                          {"median_s", s.median},
-                          {"slowest_s", s.slowest}};
+    json[kNames[kind]] = {{"falls", s.falls},     {"first_try", s.firstTry},
+                          {"risen", s.risen},     {"self_collisions", s.selfCollisions},
+                          {"median_s", s.median}, {"slowest_s", s.slowest}};
   }
   return json.dump(2) + "\n";
 }

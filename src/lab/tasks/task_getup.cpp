@@ -14,6 +14,10 @@ constexpr int kFallsOfAKind = 2;
 constexpr int kMostTries = 4;           // to fall as wanted
 constexpr double kSecondAttempt = 3.0;  // s, added when the first attempt failed
 constexpr double kFailure = 12.0;       // s, for never standing
+// Limbs that collide are frozen for a second, and most robots lie down again; more for longer, so that a
+// search finds out of it.
+constexpr double kSelfCollision = 2.0;  // s
+constexpr double kPerSecondOfCollision = 3.0;
 
 class GetupTask final : public Task {
  public:
@@ -32,6 +36,7 @@ class GetupTask final : public Task {
     double cost = 0.0;
     double time = 0.0;
     int firstTries = 0;
+    int collisions = 0;
     const int falls = kFallsOfAKind * static_cast<int>(kinds_.size());
     for (int i = 0; i < falls; ++i) {
       const Rise rise = fallAs(kinds_[static_cast<std::size_t>(i / kFallsOfAKind)], setup, random);
@@ -39,9 +44,14 @@ class GetupTask final : public Task {
       firstTries += first ? 1 : 0;
       time += rise.time;
       cost += (rise.stands ? rise.time : kFailure) + (first ? 0.0 : kSecondAttempt);
+      if (rise.collided <= 0.0) continue;
+      ++collisions;
+      cost += kSelfCollision + kPerSecondOfCollision * rise.collided;
     }
     return {.fitness = -cost / falls,
-            .measures = {{"first_try", static_cast<double>(firstTries) / falls}, {"time_s", time / falls}}};
+            .measures = {{"first_try", static_cast<double>(firstTries) / falls},
+                         {"time_s", time / falls},
+                         {"self_collisions", static_cast<double>(collisions) / falls}}};
   }
 
  private:

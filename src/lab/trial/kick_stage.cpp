@@ -21,6 +21,7 @@ class TrialStage final : public KickStage {
   double time() const override { return trial_.time(); }
   world::BallMotion ball() const override { return {trial_.ball(), trial_.ballVelocity()}; }
   bool down() const override { return trial_.down(0); }
+  bool selfCollided() const override { return trial_.fouls(0, sim::FoulType::SelfCollision) > 0; }
 
  private:
   GameTrial trial_;
@@ -47,6 +48,7 @@ class ServerStage final : public KickStage {
     putBall(game.situation.ball, Vector2::Zero());  // the robot may have pushed it
     wait(kLooks);
     putBall(game.situation.ball, game.situation.ballVelocity);
+    selfCollisionsBefore_ = body_.selfCollisions();
   }
 
   void step() override {
@@ -56,6 +58,7 @@ class ServerStage final : public KickStage {
   double time() const override { return static_cast<double>(cycles_) * kCycleTime; }
   world::BallMotion ball() const override { return body_.ball(); }
   bool down() const override { return body_.down(); }
+  bool selfCollided() const override { return body_.selfCollisions() > selfCollisionsBefore_; }
 
  private:
   void wait(double seconds) {
@@ -69,6 +72,7 @@ class ServerStage final : public KickStage {
   Mind mind_;
   ServerBody body_;
   long cycles_ = 0;
+  int selfCollisionsBefore_ = 0;
 };
 
 }  // namespace

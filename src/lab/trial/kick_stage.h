@@ -20,6 +20,8 @@ class KickStage {
   virtual world::BallMotion ball() const = 0;
   /// The robot lies or kneels.
   virtual bool down() const = 0;
+  /// The referee has frozen limbs of the robot since the trial began, because they collided.
+  virtual bool selfCollided() const = 0;
 };
 
 /// In this process.

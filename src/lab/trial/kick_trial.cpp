@@ -37,6 +37,7 @@ void follow(KickStage& stage, const Vector2& from, const Pose2& X_WAim, Kick& ki
     const Vector2 aimed = X_WAim.inverse() * Vector2(ball.p_FB.head<2>());
     kick.path.emplace_back(aimed.x(), aimed.y(), ball.p_FB.z());
     if (stage.time() < least) kick.fell = kick.fell || stage.down();
+    if (stage.time() < least) kick.selfCollided = stage.selfCollided();
     if (stage.time() > least && !world::isFlying(ball)) break;
   }
   flight.tell(kick);
@@ -59,6 +60,7 @@ Kick kickOn(KickStage& stage, const KickGame& game, double longest) {
     kick.fell = kick.fell || stage.down();
   }
   kick.time = stage.time();
+  kick.selfCollided = stage.selfCollided();
   if (kick.contact) follow(stage, from, Pose2(from, directionOf(game.p_FTarget - from)), kick);
   return kick;
 }

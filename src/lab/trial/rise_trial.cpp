@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "nonet/sim/referee/self_collision.h"
+
 namespace nonet::lab {
 
 namespace {
@@ -73,6 +75,7 @@ void rise(RobotTrial& trial, FallKind kind, Rise& result) {
       ++result.attempts;
     }
     wasRising = rising;
+    if (sim::selfCollides(trial.physics(), trial.robot())) result.collided += kCycleTime;
     const bool up = lying >= 0.0 && !trial.down() && trial.tilt() < 0.2 && !trial.motion().state().rising;
     if (!up) standing = -1.0;
     if (up && standing < 0.0) standing = trial.time();

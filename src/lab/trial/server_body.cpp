@@ -13,6 +13,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/monitor_reader.h"
+#include "nonet/sim/referee/player.h"
 #include "nonet/protocol/percept_text.h"
 
 namespace nonet::lab {
@@ -74,10 +75,13 @@ class Truth {
         torso_ = protocol::poseFromMonitor(robot.bodies.front());
     }
     takeBall();
+    for (const protocol::MonitorFoul& foul : stream_.newFouls())
+      selfCollisions_ += foul.type == static_cast<int>(sim::FoulType::SelfCollision) ? 1 : 0;
   }
 
   const Pose3& torso() const { return torso_; }
   const world::BallMotion& ball() const { return ball_; }
+  int selfCollisions() const { return selfCollisions_; }
 
  private:
   void takeBall() {
@@ -95,6 +99,7 @@ class Truth {
   Pose3 torso_ = Pose3::Identity();
   world::BallMotion ball_{};
   double time_ = 0.0;  // s, game time of the last picture
+  int selfCollisions_ = 0;
 };
 
 }  // namespace
@@ -193,6 +198,9 @@ bool ServerBody::down() const {
 }
 const world::BallMotion& ServerBody::ball() const {
   return implementation_->truth.ball();
+}
+int ServerBody::selfCollisions() const {
+  return implementation_->truth.selfCollisions();
 }
 
 }  // namespace nonet::lab

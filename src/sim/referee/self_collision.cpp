@@ -1,5 +1,7 @@
 // Self-collision (server facts 4.10): box colliders of one robot that overlap freeze the joints of their
 // limbs.
+#include "nonet/sim/referee/self_collision.h"
+
 #include <array>
 #include <cmath>
 #include <vector>
@@ -139,20 +141,32 @@ bool farApart(const Vector3f& between, const Box& a, const Box& b) {
 
 }  // namespace
 
+void findSelfCollisions(const World& world, RobotHandle robot, float tolerance,
+                        const std::function<void(BodyId, BodyId)>& found) {
+  const std::vector<Box>& all = boxes(world.robotType(robot));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ScenePose& a = world.bodyPose(robot, all[i].body);
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      const ScenePose& b = world.bodyPose(robot, all[j].body);
+      if (farApart(b.position - a.position, all[i], all[j]) || excluded(all[i].body, all[j].body)) continue;
+      if (boxesOverlap(a, all[i].size, b, all[j].size, tolerance)) found(all[i].body, all[j].body);
+    }
+  }
+}
+
+bool selfCollides(const World& world, RobotHandle robot) {
+  bool any = false;
+  findSelfCollisions(world, robot, static_cast<float>(Settings().selfCollisionsTolerance),
+                     [&any](BodyId, BodyId) { any = true; });
+  return any;
+}
+
 void Fouls::judgeSelfCollisions(TeamSide side) {
   const float tolerance = static_cast<float>(c_.settings.selfCollisionsTolerance);
   for (const Player* player : c_.team(side)) {
-    const std::vector<Box>& all = boxes(player->robotType);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const ScenePose& a = c_.world.bodyPose(player->robot, all[i].body);
-      for (std::size_t j = i + 1; j < all.size(); ++j) {
-        const ScenePose& b = c_.world.bodyPose(player->robot, all[j].body);
-        if (farApart(b.position - a.position, all[i], all[j]) || excluded(all[i].body, all[j].body)) continue;
-        if (boxesOverlap(a, all[i].size, b, all[j].size, tolerance)) {
-          selfCollision(*player, all[i].body, all[j].body);
-        }
-      }
-    }
+    findSelfCollisions(c_.world, player->robot, tolerance, [this, player](BodyId first, BodyId second) {
+      selfCollision(*player, first, second);
+    });
   }
 }
 

@@ -49,6 +49,7 @@ struct KickStatistics {
   double withinTen = 0.0;        // share of all that went within 10 degrees of the target
   double falls = 0.0;            // share of all
   double misses = 0.0;           // share of all
+  double selfCollisions = 0.0;   // share of all in which the referee froze limbs
   std::optional<double> clears;  // of a chip: share of all that were high enough and came down soon enough
   std::vector<Kick> kicks;
 };

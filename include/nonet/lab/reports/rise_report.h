@@ -23,8 +23,9 @@ struct RiseStatistics {
   int falls = 0;
   int firstTry = 0;
   int risen = 0;
-  double median = 0.0;   // s, of those that rose
-  double slowest = 0.0;  // s
+  int selfCollisions = 0;  // rises in which the referee would have frozen limbs
+  double median = 0.0;     // s, of those that rose
+  double slowest = 0.0;    // s
 };
 
 struct RiseReport {

@@ -33,6 +33,7 @@ struct Kick {
   double time = 0.0;          // s until contact
   double ballSpeed = 0.0;     // m/s, the fastest
   bool fell = false;          // within two seconds after contact, or before
+  bool selfCollided = false;  // until then its own limbs collided, for which the referee freezes them
   std::vector<Vector3> path;  // of the ball: x towards the target, y left, from where it lay, m
 
   bool missed() const;

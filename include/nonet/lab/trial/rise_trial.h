@@ -16,7 +16,8 @@ struct Rise {
   bool fell = false;    // the robot came to lie as wanted
   bool stands = false;  // in the end
   int attempts = 0;
-  double time = 0.0;  // from lying (dives: from their end) to a stand that lasts, s
+  double collided = 0.0;  // s in which limbs of its own overlapped: the referee would have frozen them
+  double time = 0.0;      // from lying (dives: from their end) to a stand that lasts, s
 };
 
 /// Front and back: the robot is tipped over while it stands or walks, in a random direction about the wanted
