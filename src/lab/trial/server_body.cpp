@@ -13,8 +13,8 @@
 #include "nonet/math/angle.h"
 #include "nonet/protocol/framing.h"
 #include "nonet/protocol/monitor_reader.h"
-#include "nonet/sim/referee/player.h"
 #include "nonet/protocol/percept_text.h"
+#include "nonet/sim/referee/player.h"
 
 namespace nonet::lab {
 
