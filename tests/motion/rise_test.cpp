@@ -36,6 +36,20 @@ TEST_P(Rising, StandsUpFromEverySide) {
   }
 }
 
+// For limbs that collide the referee freezes their joints for a second.
+TEST_P(Rising, FromTheFrontHardlyCollidesWithItself) {
+  TrialSettings setup = agentTrialSettings(GetParam());
+  setup.physics.solver = sim::WorldSettings::Solver::Quick;
+  int fell = 0, collided = 0;
+  for (std::uint64_t seed = 1; seed <= 60 && fell < 20; ++seed) {
+    const Rise rise = fallAndRise(setup, FallKind::Front, seed);
+    fell += rise.fell ? 1 : 0;
+    collided += rise.fell && rise.collided > 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(fell, 20);
+  EXPECT_LE(collided, 3);
+}
+
 // The second and third attempts, each by itself from lying still.
 TEST(RiseSkills, EveryVariantGetsUp) {
   const TrialSettings setup = agentTrialSettings(0);

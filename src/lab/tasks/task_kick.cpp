@@ -1,8 +1,8 @@
 // kick_NAME: one kick of the catalogue with the whole approach, as in [MacAlpine 2012a, section 5.2]: from
 // ten directions on a half circle, the ball where it is seen, sometimes rolling. The fitness is the distance
-// towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a miss or a ball that
-// leaves by more than ten degrees. Of a kick that goes as far as is asked for, the error counts instead of
-// the distance, of a chip the height.
+// towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a self-collision, a miss
+// or a ball that leaves by more than ten degrees. Of a kick that goes as far as is asked for, the error
+// counts instead of the distance, of a chip the height.
 #include <cmath>
 #include <string>
 
@@ -48,7 +48,7 @@ class KickTask final : public Task {
     Random random = Random(seed).fork(6);
     const int first = random.uniform() < 0.5 ? 0 : 5;
     TaskResult result;
-    double distance = 0.0, aside = 0.0, time = 0.0, falls = 0.0, failures = 0.0;
+    double distance = 0.0, aside = 0.0, time = 0.0, falls = 0.0, fouls = 0.0, failures = 0.0;
     for (int i = 0; i < kKicks; ++i) {
       KickScene scene;
       scene.kick = name_;
@@ -60,7 +60,8 @@ class KickTask final : public Task {
         scene.stops = true;
       }
       const Kick kick = kickOnce(agent, server, scene, random.next());
-      const bool failed = kick.fell || kick.missed() || std::abs(kick.direction()) > kStraight;
+      const bool failed =
+          kick.fell || kick.selfCollided || kick.missed() || std::abs(kick.direction()) > kStraight;
       const double gained =
           worthOfWay(kick, head, scene.distance) - std::abs(kick.aside) - kPerSecond * kick.time;
       result.fitness += (failed ? kPenalty : gained) / kKicks;
@@ -68,13 +69,11 @@ class KickTask final : public Task {
       aside += std::abs(kick.aside) / kKicks;
       time += kick.time / kKicks;
       falls += kick.fell ? 1.0 : 0.0;
+      fouls += kick.selfCollided ? 1.0 : 0.0;
       failures += failed ? 1.0 / kKicks : 0.0;
     }
-    result.measures = {{"distance_m", distance},
-                       {"aside_m", aside},
-                       {"time_s", time},
-                       {"falls", falls},
-                       {"failures", failures}};
+    result.measures = {{"distance_m", distance}, {"aside_m", aside},         {"time_s", time},
+                       {"falls", falls},         {"self_collisions", fouls}, {"failures", failures}};
     return result;
   }
 

@@ -4,7 +4,7 @@
 // over the starts; for a kick that goes as far as is asked for, the error counts instead of the distance, for
 // a chip its height a metre on, and what it lands too far off. A ball that leaves by more than ten degrees
 // gets less than -1, the less the farther off it is, so that a search finds to the direction; no contact is
-// worse, and a fall costs up to 1.
+// worse, a fall costs up to 1, and limbs that collide, which the referee would freeze, 1.
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -71,6 +71,7 @@ double gained(const Swing& swing, const motion::KickHead& head, double distance)
   if (!kick.contact) return kNoContact;
   const double off = std::abs(kick.direction());
   if (kick.missed() || off > kStraight) return kPenalty - kPerTurn * off / kPi;
+  if (kick.selfCollided) return kPenalty;
   if (kick.fell) return kPenalty * (1.0 - std::min(1.0, swing.upright / kLastsUpright));
   return worthOfWay(kick, head, distance) - std::abs(kick.aside) - kPerSecond * kick.time -
          kPerLean * std::max(0.0, swing.lean - kLeans);

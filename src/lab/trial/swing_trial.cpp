@@ -18,6 +18,7 @@
 #include "nonet/motion/kick_catalogue.h"
 #include "nonet/motion/skill_player.h"
 #include "nonet/motion/walk/engine.h"
+#include "nonet/sim/referee/self_collision.h"
 #include "nonet/world/ball_law.h"
 
 #include "lab/trial/ball_flight.h"
@@ -187,6 +188,7 @@ struct SwingTrial::Implementation {
       }
       settled = over > kSettles && tilt < kUpright && std::abs(tilt - tiltBefore) < kAtRest * kCycleTime;
       result.fell = isDown(world, robot);
+      result.selfCollided = result.selfCollided || sim::selfCollides(world, robot);
       if (over > 0.0 && !result.contact) break;
       if (result.contact && time > result.time + kOnItsWay && goesElsewhere()) break;
     }

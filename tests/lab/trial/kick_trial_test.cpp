@@ -2,9 +2,11 @@
 #include "nonet/lab/trial/kick_trial.h"
 
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "nonet/config/assignment.h"
 #include "nonet/math/angle.h"
 #include "nonet/sim/settings/settings.h"
 
@@ -53,6 +55,27 @@ TEST(Kicks, ToTheSideGoWhereTheyShould) {
   }
   EXPECT_GE(good, 18);
   EXPECT_LE(fell, 2);
+}
+
+// The referee sees a kick that ends with crossed legs, and none of ours.
+TEST(Kicks, ThatCrossTheLegsAreFouls) {
+  agent::AgentSettings agent = agentOfType(2);
+  sim::Settings server;
+  server.quickSolver = true;
+  const auto fouls = [&] {
+    int count = 0;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      KickScene scene;
+      scene.kick = "kick_power";
+      if (kickOnce(agent, server, scene, seed).selfCollided) ++count;
+    }
+    return count;
+  };
+  EXPECT_EQ(fouls(), 0);
+  for (const char* change : {"hipRoll4=-0.41", "hipRollStance4=-0.41", "hipRollLand=-0.41",
+                             "hipRollStanceLand=-0.41", "kneeLand=-2", "settle=0.6"})
+    config::assignParameter(agent.parameters, std::string("motion.skills.kick_power.") + change);
+  EXPECT_GE(fouls(), 5);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // Self-collision: server facts 4.10, one scenario per rule.
+#include "nonet/sim/referee/self_collision.h"
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -53,6 +55,13 @@ TEST(SelfCollision, LegsThatOverlapAreFrozenForASecond) {
   EXPECT_FALSE(s.frozen(model::JointId::RLeg1));
   s.seconds(1.5);
   EXPECT_EQ(s.countFouls(FoulType::SelfCollision), 1) << "cannot be frozen again for two seconds";
+}
+
+TEST(SelfCollision, IsFoundByItselfToo) {
+  SelfCollision s;
+  EXPECT_FALSE(selfCollides(s.sim.world(), s.info(s.player).robot));
+  crossLegs(s, s.player);
+  EXPECT_TRUE(selfCollides(s.sim.world(), s.info(s.player).robot));
 }
 
 TEST(SelfCollision, FrozenJointsTakeEveryCommandAsZero) {
