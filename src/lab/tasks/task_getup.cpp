@@ -14,8 +14,8 @@ constexpr int kFallsOfAKind = 2;
 constexpr int kMostTries = 4;           // to fall as wanted
 constexpr double kSecondAttempt = 3.0;  // s, added when the first attempt failed
 constexpr double kFailure = 12.0;       // s, for never standing
-// Limbs that collide are frozen for a second, and most robots lie down again; more for longer, so that a
-// search finds out of it.
+// The referee freezes limbs that collide for a second, here nobody does; more for longer, so that a search
+// finds out of it.
 constexpr double kSelfCollision = 2.0;  // s
 constexpr double kPerSecondOfCollision = 3.0;
 

@@ -155,9 +155,9 @@ void findSelfCollisions(const World& world, RobotHandle robot, float tolerance,
 }
 
 bool selfCollides(const World& world, RobotHandle robot) {
+  static const auto tolerance = static_cast<float>(Settings().selfCollisionsTolerance);
   bool any = false;
-  findSelfCollisions(world, robot, static_cast<float>(Settings().selfCollisionsTolerance),
-                     [&any](BodyId, BodyId) { any = true; });
+  findSelfCollisions(world, robot, tolerance, [&any](BodyId, BodyId) { any = true; });
   return any;
 }
 
