@@ -42,8 +42,7 @@ lab::SideSettings sideOf(const SideArguments& arguments, const std::string& data
   side.robotTypes = arguments.side.robotTypes;
   for (const std::string& file : arguments.side.parameterFiles)
     side.parameterFiles.push_back(std::filesystem::absolute(file).string());
-  if (!side.command.empty() &&
-      (!side.assignments.empty() || !side.parameterFiles.empty() || !side.robotTypes.empty()))
+  if (!side.nonet() && side.hasOverlays())
     throw std::runtime_error(
         fmt::format("{}: a foreign command takes no parameters or robot types of ours", arguments.word));
   return side;

@@ -92,7 +92,7 @@ SideSettings readSide(const toml::table& table, const std::string& path, const s
   side.assignments = assignments;
   side.robotTypes = robotTypes;
   for (const std::string& file : files) side.parameterFiles.push_back(besideFile(file, folder));
-  if (!side.command.empty() && (!files.empty() || !assignments.empty() || !robotTypes.empty()))
+  if (!side.nonet() && side.hasOverlays())
     reader.fail(table, "a foreign command takes no parameters or robot types of ours");
   return side;
 }

@@ -36,8 +36,10 @@ void follow(KickStage& stage, const Vector2& from, const Pose2& X_WAim, Kick& ki
     flight.note(ball);
     const Vector2 aimed = X_WAim.inverse() * Vector2(ball.p_FB.head<2>());
     kick.path.emplace_back(aimed.x(), aimed.y(), ball.p_FB.z());
-    if (stage.time() < least) kick.fell = kick.fell || stage.down();
-    if (stage.time() < least) kick.selfCollided = stage.selfCollided();
+    if (stage.time() < least) {
+      kick.fell = kick.fell || stage.down();
+      kick.selfCollided = stage.selfCollided();
+    }
     if (stage.time() > least && !world::isFlying(ball)) break;
   }
   flight.tell(kick);

@@ -29,6 +29,8 @@ struct SideSettings {
   bool ours() const { return executable.empty() && command.empty(); }
   /// Its agents are processes of Nonet, this one or another.
   bool nonet() const { return command.empty(); }
+  /// Something is set that only agents of ours take: parameters or robot types.
+  bool hasOverlays() const { return !parameterFiles.empty() || !assignments.empty() || !robotTypes.empty(); }
   /// "own", the folder, the executable or the command, and the overlays.
   std::string describe() const;
   friend bool operator==(const SideSettings&, const SideSettings&) = default;
