@@ -80,7 +80,15 @@ class Parser : private SkillReader {
     const std::string name = word("the name of the parameter");
     SkillParameter* known = restates ? parameterOf(name) : nullptr;
     if (isNamed(name) && !restates) failAt(nameToken, "this parameter exists already");
-    if (collects() && !isNamed(name)) nameValue(name, {});  // known, even if what follows makes no sense
+    try {
+      defineParameter(nameToken, name, known);
+    } catch (const SkillError&) {
+      if (!isNamed(name)) nameValue(name, {});  // those who name it are not wrong for that
+      throw;
+    }
+  }
+
+  void defineParameter(const SkillToken& nameToken, const std::string& name, SkillParameter* known) {
     expect("=");
     SkillParameter parameter = known != nullptr ? *known : SkillParameter{};
     parameter.name = name;

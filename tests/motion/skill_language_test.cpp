@@ -15,6 +15,7 @@ namespace nonet::motion {
 namespace {
 
 using model::JointId;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 Skill parseOne(const std::string& body) {
@@ -219,6 +220,19 @@ TEST(SkillLanguage, ErrorsNameFileLineAndColumn) {
        "only one factor may depend on the ball"},
   };
   for (const auto& [text, message] : cases) EXPECT_THAT(errorOf(text), HasSubstr(message)) << text;
+}
+
+// An error in a parameter is told once, not where the parameter is used; its own value and range cannot use
+// it.
+TEST(SkillLanguage, ACheckTellsAParameterThatNamesItself) {
+  const auto errorsOf = [](const std::string& text) { return checkSkills(text, "test.skl", {}).errors; };
+  const std::string use = " move over 1s { left.knee x } }";
+  EXPECT_THAT(errorsOf("skill a { parameter x = -4deg in x-9deg..0deg" + use),
+              ElementsAre(HasSubstr("test.skl:1:34: unknown parameter 'x'")));
+  EXPECT_THAT(errorsOf("skill a { parameter x = x" + use),
+              ElementsAre(HasSubstr("test.skl:1:25: unknown parameter 'x'")));
+  EXPECT_THAT(errorsOf("skill a { parameter x = 5 in 6..7" + use),
+              ElementsAre(HasSubstr("test.skl:1:21: the default lies outside")));
 }
 
 TEST(SkillLanguage, LibraryResolvesCallsAndFindsCircles) {
