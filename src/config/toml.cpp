@@ -13,7 +13,9 @@ namespace nonet::config {
 
 toml::table parseToml(std::string_view text) {
   if (const std::size_t line = lineOfForeignLetter(text))
-    throw TomlError(line, "a letter beyond ASCII may stand in comments and in quotes only");
+    throw TomlError(
+        line,
+        "a letter beyond ASCII may stand in comments and in texts in quotes only, in no key behind a dot");
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {

@@ -5,12 +5,12 @@ namespace nonet::config {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::string_view kBeforeTexts = " \t\r\n=,[{.";  // one of these stands before a text in quotes
+constexpr std::string_view kBeforeTexts = " \t\r\n=,[{";  // one of these stands before a text in quotes
 
 // Where the next byte stands.
 class Place {
  public:
-  bool mayBeForeign() const { return comment_ || (quote_ != 0 && !threefold_); }
+  bool mayBeForeign() const { return !doubtful_ && (comment_ || (quote_ != 0 && !threefold_)); }
 
   // Reads what begins the text, as long as it belongs together: an escape or three quotes. Its length.
   std::size_t read(std::string_view text) {
@@ -24,6 +24,7 @@ class Place {
     const char c = text.front();
     if (c == '\n') {
       comment_ = false;
+      doubtful_ = false;
       if (!threefold_) quote_ = 0;
     } else if (comment_) {
       return 1;
@@ -44,8 +45,8 @@ class Place {
   std::size_t open(std::string_view text) {
     comment_ = text.front() == '#';
     if (text.front() != '"' && text.front() != '\'') return 1;
-    // In the middle of a number (2"x") it is a mistake, and toml++ reads on without heeding it.
-    if (kBeforeTexts.find(before_) == std::string_view::npos) return 1;
+    // Of a key behind a dot (a."x"), or a mistake (2."x") where toml++ reads on without heeding the quote.
+    doubtful_ = doubtful_ || kBeforeTexts.find(before_) == std::string_view::npos;
     quote_ = text.front();
     threefold_ = isThreefold(text);
     return threefold_ ? 3 : 1;
@@ -62,6 +63,7 @@ class Place {
   bool comment_ = false;
   char quote_ = 0;  // 0: outside of texts
   bool threefold_ = false;
+  bool doubtful_ = false;  // until the line ends
   char before_ = '\n';
 };
 

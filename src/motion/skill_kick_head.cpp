@@ -67,6 +67,8 @@ KickHead readKickHead(SkillReader& reader) {
       head.clears = reader.positive(Unit::Metre);
       reader.expect("within");
       head.lands = reader.positive(Unit::Metre);
+    } else if (reader.accept("low")) {
+      head.low = reader.positive(Unit::Metre);
     } else if (reader.accept("contact")) {
       head.contact = reader.positive(Unit::Second);
     } else if (reader.accept("room")) {
@@ -79,7 +81,7 @@ KickHead readKickHead(SkillReader& reader) {
     } else {
       reader.fail(
           fmt::format("'{}' does not belong into the head of a kick (ball direction distance flies clears "
-                      "contact room from types)",
+                      "low contact room from types)",
                       reader.peek().text));
     }
   }

@@ -1,5 +1,7 @@
 #include "nonet/config/toml_letters.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace nonet::config {
@@ -15,7 +17,7 @@ TEST(TomlLetters, MayStandInCommentsAndQuotes) {
             0u)
       << "the mark that some editors begin files with";
   EXPECT_EQ(
-      lineOfForeignLetter("a.'\xC3\xB6' = {b = [\"\xC3\xB6\",'\xC3\xB6', [\"\xC3\xB6\"]], \"\xC3\xB6\"=1}\n"),
+      lineOfForeignLetter("'\xC3\xB6' = {b = [\"\xC3\xB6\",'\xC3\xB6', [\"\xC3\xB6\"]], \"\xC3\xB6\"=1}\n"),
       0u)
       << "wherever a text may begin";
 }
@@ -32,6 +34,9 @@ TEST(TomlLetters, AreFoundElsewhere) {
   EXPECT_EQ(lineOfForeignLetter("a = \"\"\"\nb # \" c\n\xC3\xB6\"\"\"\n"), 3u)
       << "but for one in three quotes";
   EXPECT_EQ(lineOfForeignLetter("a = 2\"\"b\"c\xC3\xB6\"\n"), 1u) << "a quote in a number begins no text";
+  for (const std::string before : {"a = 2.", "a = [1, 2.", "a = +inf.", "a.", "a = {b = 1, c."})
+    EXPECT_EQ(lineOfForeignLetter(before + "\"b\xC3\xB6\"\n"), 1u) << before << ": a key's part or a mistake";
+  EXPECT_EQ(lineOfForeignLetter("a.\"#\" = \"\" # b\nc = 1 # \xC3\xB6\n"), 0u) << "only in that line";
   EXPECT_EQ(lineOfForeignLetter("a = '''b''' # \xC3\xB6\nb = \"\"\"c\"\"\" \xC3\xB6"), 2u);
 }
 

@@ -2,9 +2,10 @@
 // before kick_NAME polishes them with the approach. The fitness is the distance towards the target less what
 // goes aside, 1.2 m for every second until contact and what the robot leans afterwards, less half the spread
 // over the starts; for a kick that goes as far as is asked for, the error counts instead of the distance, for
-// a chip its height a metre on, and what it lands too far off. A ball that leaves by more than ten degrees
-// gets less than -1, the less the farther off it is, so that a search finds to the direction; no contact is
-// worse, a fall costs up to 1, and limbs that collide, which the referee would freeze, 1.
+// a chip its height a metre on, and what it lands too far off; a kick that is to be low pays for height
+// there. A ball that leaves by more than ten degrees gets less than -1, the less the farther off it is, so
+// that a search finds to the direction; no contact is worse, a fall costs up to 1, and limbs that collide,
+// which the referee would freeze, 1.
 #include <cmath>
 #include <map>
 #include <mutex>
