@@ -5,7 +5,12 @@ namespace nonet::config {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::string_view kBeforeTexts = " \t\r\n=,[{";  // one of these stands before a text in quotes
+constexpr std::string_view kEndOfValue = " \t\r\n\v\f,";  // where toml++ stops to read what is no value
+constexpr std::string_view kBegins = "[{";
+
+bool isOneOf(std::string_view letters, char c) {
+  return letters.find(c) != std::string_view::npos;
+}
 
 // Where the next byte stands.
 class Place {
@@ -15,7 +20,7 @@ class Place {
   // Reads what begins the text, as long as it belongs together: an escape or three quotes. Its length.
   std::size_t read(std::string_view text) {
     const std::size_t length = lengthOf(text);
-    before_ = text[length - 1];
+    if (quote_ == 0 && !comment_) follow(text.front());
     return length;
   }
 
@@ -45,11 +50,22 @@ class Place {
   std::size_t open(std::string_view text) {
     comment_ = text.front() == '#';
     if (text.front() != '"' && text.front() != '\'') return 1;
-    // Of a key behind a dot (a."x"), or a mistake (2."x") where toml++ reads on without heeding the quote.
-    doubtful_ = doubtful_ || kBeforeTexts.find(before_) == std::string_view::npos;
+    // Of a key behind a dot (a."x"), or a mistake (2"x", 2="x") where toml++ reads on without heeding quotes.
+    doubtful_ = doubtful_ || !mayBegin_;
     quote_ = text.front();
     threefold_ = isThreefold(text);
     return threefold_ ? 3 : 1;
+  }
+
+  // Whether a text may begin behind this letter, which stands outside of texts and comments.
+  void follow(char c) {
+    if (c == '[') ++arrays_;
+    if (c == ']' && arrays_ > 0) --arrays_;
+    if (c == '\n') onlyKey_ = arrays_ == 0;
+    const bool ends = isOneOf(kEndOfValue, c);
+    const bool assigns = c == '=' && onlyKey_;
+    mayBegin_ = ends || assigns || (mayBegin_ && isOneOf(kBegins, c));
+    if (c == ',' || c == '=' || isOneOf(kBegins, c)) onlyKey_ = false;
   }
 
   std::size_t close(std::string_view text) {
@@ -64,7 +80,9 @@ class Place {
   char quote_ = 0;  // 0: outside of texts
   bool threefold_ = false;
   bool doubtful_ = false;  // until the line ends
-  char before_ = '\n';
+  bool mayBegin_ = true;   // a text
+  bool onlyKey_ = true;    // so far in this line
+  int arrays_ = 0;         // that are open, or a table's brackets
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ class TomlError : public std::runtime_error {
   std::size_t line_;
 };
 
-/// Throws TomlError. Letters beyond ASCII may stand in comments and in texts in quotes only.
+/// Throws TomlError, also where letters beyond ASCII must not stand (toml_letters.h).
 toml::table parseToml(std::string_view text);
 
 /// A whole file; throws std::runtime_error that says why it cannot be read, and what `kind` of file to give.
