@@ -12,13 +12,28 @@ namespace nonet::lab {
 
 std::span<const Task* const> registeredTasks() {
   static const std::array tasks{
-      &goToTargetTask(), &surefootedTask(),   &standardCourseTask(),
-      &sidestepTask(),   &duelTask(),         &sprintTask(),
-      &runTask(),        &getupTask(),        &getupFrontTask(),
-      &getupBackTask(),  &swingTask("power"), &kickTask("kick_power"),
-      &diveTask(),       &blockTask(),        &saveTask(),
-      &approachTask(),   &dribbleTask(),      &receiveTask(),
-      &contestTask(),    &attackTask(),       &quadraticTask(),
+      &goToTargetTask(),
+      &surefootedTask(),
+      &standardCourseTask(),
+      &sidestepTask(),
+      &duelTask(),
+      &sprintTask(),
+      &runTask(),
+      &chaseTask(),
+      &getupTask(),
+      &getupFrontTask(),
+      &getupBackTask(),
+      &swingTask("power"),
+      &kickTask("kick_power"),
+      &diveTask(),
+      &blockTask(),
+      &saveTask(),
+      &approachTask(),
+      &dribbleTask(),
+      &receiveTask(),
+      &contestTask(),
+      &attackTask(),
+      &quadraticTask(),
   };
   return tasks;
 }

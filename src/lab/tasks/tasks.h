@@ -19,6 +19,7 @@ const Task& sidestepTask();
 const Task& duelTask();
 const Task& sprintTask();
 const Task& runTask();
+const Task& chaseTask();
 const Task& getupTask();
 const Task& getupFrontTask();
 const Task& getupBackTask();

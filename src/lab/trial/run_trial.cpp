@@ -1,5 +1,6 @@
 #include "nonet/lab/trial/run_trial.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -24,6 +25,12 @@ constexpr double kNoiseKept = 0.9;      // from cycle to cycle
 constexpr double kPush = 0.1;           // m/s
 constexpr double kPushEvery = 1.5;      // s, on average
 constexpr double kAfterwards = 1.0;     // s, of what follows
+constexpr double kChaseTime = 8.0;      // s
+constexpr double kLeap = 0.8;           // rad, of a target that is chased; every fifth leap
+constexpr double kFarLeap = 3.0;        // rad, goes up to here
+constexpr double kLeapEvery = 2.0;      // s, on average
+constexpr double kCrowdEvery = 4.0;     // s, on average: then somebody is near,
+constexpr double kCrowdTime = 1.0;      // s, for up to so long
 constexpr double kTilt = 0.5;           // rad
 constexpr double kSurelyFalling = 0.9;  // rad
 constexpr double kStill = 0.08;         // m/s
@@ -71,6 +78,26 @@ class Runner {
     return outcome_;
   }
 
+  RunOutcome chase(double hardness) {
+    hardness_ = hardness;
+    begin();
+    const int cycles = cyclesIn(kChaseTime);
+    double way = 0.0, fastWay = 0.0;
+    for (int i = 0; i < cycles && !outcome_.fell; ++i) {
+      const Vector2 before = trial_.pose().translation;
+      trial_.step(followedTarget());
+      const double made = (trial_.pose().translation - before).dot(unitVector(direction_));
+      way += made;
+      if (i >= cyclesIn(kFastAfter)) fastWay += made;
+      feelTilt();
+      outcome_.fell = lies();
+      if (outcome_.fell) outcome_.fellAt = static_cast<double>(i) / cycles;
+    }
+    outcome_.speed = way / kChaseTime;
+    if (!outcome_.fell) outcome_.fast = fastWay / (kChaseTime - kFastAfter);
+    return outcome_;
+  }
+
  private:
   // A quarter each out of a walk in any direction and of one ahead, the rest out of a stand.
   void begin() {
@@ -95,14 +122,36 @@ class Runner {
     target_ = trial_.pose().translation + kAway * unitVector(turned);
   }
 
-  motion::MotionRequest towardsTarget() {
-    noise_ = kNoiseKept * noise_ + std::sqrt(1.0 - kNoiseKept * kNoiseKept) * kNoise * random_.normal();
+  void leapTarget() {
+    const double most = random_.below(5) == 0 ? kFarLeap : kLeap;
+    direction_ += hardness_ * random_.uniform(-most, most);
+    target_ = trial_.pose().translation + kAway * unitVector(direction_);
+  }
+
+  // What happens to somebody who follows the ball: the target leaps, others bump into it, or are so near that
+  // it walks with more care for a while.
+  motion::MotionRequest followedTarget() {
+    if (random_.uniform() < kCycleTime / kLeapEvery) leapTarget();
+    if (random_.uniform() < kCycleTime / kPushEvery) push();
+    if (random_.uniform() < kCycleTime / kCrowdEvery) {
+      crowded_ = cyclesIn(hardness_ * random_.uniform(0.0, kCrowdTime));
+    }
+    motion::WalkTo request = towardsTarget();
+    if (crowded_ > 0) request.set = motion::WalkSet::Positioning;
+    crowded_ = std::max(0, crowded_ - 1);
+    return request;
+  }
+
+  motion::WalkTo towardsTarget() {
+    noise_ = kNoiseKept * noise_ +
+             std::sqrt(1.0 - kNoiseKept * kNoiseKept) * hardness_ * kNoise * random_.normal();
     const double bearing = directionOf(trial_.pose().inverse() * target_) + noise_;
     return motion::WalkTo{Pose2(kAway * unitVector(bearing), bearing), false};
   }
 
   void push() {
-    const Vector2 v = kPush * std::sqrt(random_.uniform()) * unitVector(random_.uniform(-kPi, kPi));
+    const Vector2 v =
+        hardness_ * kPush * std::sqrt(random_.uniform()) * unitVector(random_.uniform(-kPi, kPi));
     for (const model::BodySpec& body : trial_.model().bodies()) {
       auto state = trial_.physics().bodyState(trial_.robot(), body.id);
       state.velocity.head<2>() += v;
@@ -155,12 +204,18 @@ class Runner {
   Vector2 target_ = Vector2::Zero();  // m
   double direction_ = 0.0;            // rad
   double noise_ = 0.0;                // rad
+  double hardness_ = 1.0;             // of all that disturbs
+  int crowded_ = 0;                   // cycles that it stays so
 };
 
 }  // namespace
 
 RunOutcome runAhead(const TrialSettings& setup, std::uint64_t seed) {
   return Runner(setup, seed).run();
+}
+
+RunOutcome runAfter(const TrialSettings& setup, std::uint64_t seed, double hardness) {
+  return Runner(setup, seed).chase(hardness);
 }
 
 }  // namespace nonet::lab

@@ -36,6 +36,34 @@ TEST_P(Running, OutOfAnyWalkAndBackWithoutAFall) {
   EXPECT_GT(fast, 1.35);  // m/s
 }
 
+// After a target that leaps aside: who turns, slows down and gathers speed again hardly ever falls.
+TEST_P(Running, AfterATargetThatLeapsAside) {
+  TrialSettings setup = agentTrialSettings(GetParam());
+  setup.physics.solver = sim::WorldSettings::Solver::Quick;
+  constexpr int kRuns = 20;
+  int falls = 0;
+  double speed = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    const RunOutcome run = runAfter(setup, seed);
+    falls += run.fell ? 1 : 0;
+    speed += run.speed / kRuns;
+  }
+  EXPECT_LE(falls, 3);
+  EXPECT_GT(speed, 1.0);  // m/s
+}
+
+TEST(Runs, AfterATargetAreHarderTheMoreItLeaps) {
+  TrialSettings setup = agentTrialSettings(2);
+  setup.physics.solver = sim::WorldSettings::Solver::Quick;
+  double still = 0.0, leaping = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    still += runAfter(setup, seed, 0.0).speed;
+    leaping += runAfter(setup, seed, 1.0).speed;
+  }
+  EXPECT_GT(still, 1.1 * leaping);
+  EXPECT_EQ(runAfter(setup, 3).speed, runAfter(setup, 3).speed);
+}
+
 // With its own eyes along the field, as `nonet ball-report --skill run` measures it.
 TEST_P(Running, AlongTheFieldAndStops) {
   sim::Settings server;

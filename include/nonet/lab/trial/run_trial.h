@@ -1,6 +1,5 @@
-// A run straight ahead as a game asks for it, on the physics alone: out of a stand or any walk, towards a
-// far target whose direction is noisy and in every third trial jumps once, among light pushes; in the end a
-// stop or another walk.
+// Runs as a game asks for them, on the physics alone: out of a stand or any walk, towards a far target whose
+// direction is noisy, among light pushes.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,13 @@ struct RunOutcome {
   bool fellAfter = false;     // in what followed it
 };
 
-/// The same seed always gives the same run.
+/// Straight ahead; in every third trial the target jumps once; in the end a stop or another walk. The same
+/// seed always gives the same run.
 RunOutcome runAhead(const TrialSettings& setup, std::uint64_t seed);
+/// After a far target whose direction leaps by up to 0.8 rad, at times by up to 3 rad, two seconds apart on
+/// average, for 8 s, and with the positioning set at times: as the ways around others, new roles and robots
+/// nearby make it in a game. Leaps, pushes and noise times `hardness`. Tells `speed` and `fast` (towards
+/// where the target is at the time), `fell`, `fellAt` and `unsteadiness`.
+RunOutcome runAfter(const TrialSettings& setup, std::uint64_t seed, double hardness = 1.0);
 
 }  // namespace nonet::lab
