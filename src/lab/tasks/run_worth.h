@@ -16,7 +16,7 @@ inline double worth(const RunOutcome& run) {
   constexpr double kLateFall = 0.4;
   constexpr double kFallAfter = 0.5;
   constexpr double kStopTime = 0.7;       // s, free
-  constexpr double kStopCost = 0.2;       // per s beyond
+  constexpr double kStopCost = 0.4;       // per s beyond
   constexpr double kUnsteadiness = 0.08;  // per s
   double value = run.speed - kUnsteadiness * run.unsteadiness;
   if (run.fell) value -= kFall + (kLateFall - kFall) * run.fellAt;
