@@ -29,6 +29,7 @@ std::span<const Task* const> registeredTasks() {
       &blockTask(),
       &saveTask(),
       &approachTask(),
+      &footworkTask(),
       &dribbleTask(),
       &receiveTask(),
       &contestTask(),

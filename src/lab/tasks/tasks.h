@@ -29,6 +29,7 @@ const Task& kickTask(std::string_view name);
 const Task& swingTask(std::string_view name);
 const Task& diveTask();
 const Task& approachTask();
+const Task& footworkTask();
 const Task& dribbleTask();
 const Task& receiveTask();
 const Task& contestTask();

@@ -28,6 +28,7 @@ constexpr double kApproachFrom = 1.5;      // m
 constexpr double kApproachRolling = 1.0;   // m/s
 constexpr double kApproachLongest = 10.0;  // s
 constexpr double kKickOver = 8.0;          // m, to the target
+constexpr double kPushEvery = 1.0;         // s, on average
 
 // What the body said of itself last.
 struct KickWatch {
@@ -96,7 +97,8 @@ constexpr double kStopTime = 3.0;  // s
 
 }  // namespace
 
-Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
+Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed,
+                      double push) {
   Random random(seed);
   GameSituation situation;
   situation.ball = {random.uniform(-8.0, 5.0), random.uniform(-5.0, 5.0)};
@@ -118,7 +120,10 @@ Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& se
     const double wanted = directionOf(way) - watch->direction;
     return watch->ready && std::abs(wrapAngle(wanted - now.X_WR.rotation)) < kFacing;
   };
-  trial.run(kApproachLongest, [&] { return !inPlace(); });
+  trial.run(kApproachLongest, [&] {
+    if (push > 0.0 && random.uniform() < kCycleTime / kPushEvery) trial.game().push(0, push, random);
+    return !inPlace();
+  });
   Approach approach;
   approach.arrived = inPlace();
   approach.time = trial.game().time();

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/lab/trial/push.h"
 #include "nonet/lab/trial/true_pose.h"
 
 #include "lab/trial/trial_server.h"
@@ -205,6 +206,9 @@ void GameTrial::run(double seconds) {
 
 void GameTrial::throwBall(const Vector3& place, const Vector3& velocity) {
   implementation_->throwBall(place, velocity);
+}
+void GameTrial::push(std::size_t player, double most, Random& random) {
+  pushRobot(implementation_->simulation.world(), implementation_->entries.at(player).robot, most, random);
 }
 void GameTrial::setPlayMode(protocol::PlayMode playMode) {
   implementation_->setPlayMode(playMode);

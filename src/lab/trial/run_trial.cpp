@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "nonet/lab/trial/push.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/model/ball.h"
@@ -149,15 +150,7 @@ class Runner {
     return motion::WalkTo{Pose2(kAway * unitVector(bearing), bearing), false};
   }
 
-  void push() {
-    const Vector2 v =
-        hardness_ * kPush * std::sqrt(random_.uniform()) * unitVector(random_.uniform(-kPi, kPi));
-    for (const model::BodySpec& body : trial_.model().bodies()) {
-      auto state = trial_.physics().bodyState(trial_.robot(), body.id);
-      state.velocity.head<2>() += v;
-      trial_.physics().setBodyState(trial_.robot(), body.id, state);
-    }
-  }
+  void push() { pushRobot(trial_.physics(), trial_.robot(), hardness_ * kPush, random_); }
 
   void stop() {
     std::array<Vector2, kSpeedOver> before;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 
+#include "nonet/lab/trial/push.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 
@@ -277,15 +278,7 @@ class Walker {
     settings_.set = settings_.set == WalkSet::Positioning ? WalkSet::GoToTarget : WalkSet::Positioning;
   }
 
-  void push() {
-    const Vector2 v = polar(settings_.push * std::sqrt(random_.uniform()), random_.uniform(-kPi, kPi));
-    sim::World& physics = trial_->physics();
-    for (const model::BodySpec& body : trial_->model().bodies()) {
-      auto state = physics.bodyState(trial_->robot(), body.id);
-      state.velocity.head<2>() += v;
-      physics.setBodyState(trial_->robot(), body.id, state);
-    }
-  }
+  void push() { pushRobot(trial_->physics(), trial_->robot(), settings_.push, random_); }
 
   void fall(const Pose2& at, int cycles) {
     result_.time += cycles * kCycleTime;

@@ -24,8 +24,10 @@ struct Approach : TrialCost {
   bool arrived = false;  // in its place for the kick, facing it within ten degrees
   double time = 0.0;     // s [the longest]
 };
-/// From 1.5 m, the ball between robot and target in any direction, rolling up to 1 m/s in any direction.
-Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
+/// From 1.5 m, the ball between robot and target in any direction, rolling up to 1 m/s in any direction;
+/// among pushes of up to `push` m/s, a second apart on average.
+Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed,
+                      double push = 0.0);
 
 struct Dribble : TrialCost, DribbleResult {
   BallPath path;

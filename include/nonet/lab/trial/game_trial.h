@@ -21,6 +21,10 @@
 #include "nonet/sim/simulation.h"
 #include "nonet/team/action.h"
 
+namespace nonet {
+class Random;
+}
+
 namespace nonet::lab {
 
 /// What a robot is to do, from what it believes and what its body is doing. Called once a cycle.
@@ -54,6 +58,8 @@ class GameTrial {
   void run(double seconds);
   /// Puts the ball there (world, m) with this velocity and without spin, as a trainer can.
   void throwBall(const Vector3& place, const Vector3& velocity);
+  /// Somebody bumps into it (push.h): up to `most` m/s in any direction.
+  void push(std::size_t player, double most, Random& random);
   /// The referee changes to this mode at once.
   void setPlayMode(protocol::PlayMode playMode);
 
