@@ -9,8 +9,8 @@
 namespace nonet::lab {
 
 void pushRobot(sim::World& world, sim::RobotHandle robot, double most, Random& random) {
-  const double speed = most * std::sqrt(random.uniform());
-  const Vector2 change = speed * unitVector(random.uniform(-kPi, kPi));
+  const Vector2 direction = unitVector(random.uniform(-kPi, kPi));
+  const Vector2 change = most * std::sqrt(random.uniform()) * direction;
   for (const model::BodySpec& body : model::robotModel(world.robotType(robot)).bodies()) {
     auto state = world.bodyState(robot, body.id);
     state.velocity.head<2>() += change;
