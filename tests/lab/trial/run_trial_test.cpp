@@ -1,6 +1,8 @@
 // Runs with the learned values, seeded: on the quick stepper, wide starts, light pushes and noise.
 #include "nonet/lab/trial/run_trial.h"
 
+#include <functional>
+
 #include <gtest/gtest.h>
 
 #include "nonet/lab/trial/ball_trial.h"
@@ -20,36 +22,40 @@ TEST(Runs, OfTheSameSeedAreTheSame) {
   EXPECT_NE(runAhead(setup, 3).speed, runAhead(setup, 4).speed);
 }
 
-// Out of stands and walks, among pushes, and then a stop or another walk: hardly ever with a fall.
-TEST_P(Running, OutOfAnyWalkAndBackWithoutAFall) {
-  TrialSettings setup = agentTrialSettings(GetParam());
+struct Tally {
+  int falls = 0;
+  double speed = 0.0;  // m/s, means
+  double fast = 0.0;
+};
+
+// Of twenty such runs of this type.
+Tally tallyOf(int type, const std::function<RunOutcome(const TrialSettings&, std::uint64_t)>& run) {
+  TrialSettings setup = agentTrialSettings(type);
   setup.physics.solver = sim::WorldSettings::Solver::Quick;
   constexpr int kRuns = 20;
-  int falls = 0;
-  double fast = 0.0;
+  Tally tally;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
-    const RunOutcome run = runAhead(setup, seed);
-    falls += run.fell || run.fellAfter ? 1 : 0;
-    fast += run.fast / kRuns;
+    const RunOutcome outcome = run(setup, seed);
+    tally.falls += outcome.fell || outcome.fellAfter ? 1 : 0;
+    tally.speed += outcome.speed / kRuns;
+    tally.fast += outcome.fast / kRuns;
   }
-  EXPECT_LE(falls, 1);
-  EXPECT_GT(fast, 1.35);  // m/s
+  return tally;
+}
+
+// Out of stands and walks, among pushes, and then a stop or another walk: hardly ever with a fall.
+TEST_P(Running, OutOfAnyWalkAndBackWithoutAFall) {
+  const Tally tally = tallyOf(GetParam(), runAhead);
+  EXPECT_LE(tally.falls, 1);
+  EXPECT_GT(tally.fast, 1.35);  // m/s
 }
 
 // After a target that leaps aside: who turns, slows down and gathers speed again hardly ever falls.
 TEST_P(Running, AfterATargetThatLeapsAside) {
-  TrialSettings setup = agentTrialSettings(GetParam());
-  setup.physics.solver = sim::WorldSettings::Solver::Quick;
-  constexpr int kRuns = 20;
-  int falls = 0;
-  double speed = 0.0;
-  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
-    const RunOutcome run = runAfter(setup, seed);
-    falls += run.fell ? 1 : 0;
-    speed += run.speed / kRuns;
-  }
-  EXPECT_LE(falls, 3);
-  EXPECT_GT(speed, 1.0);  // m/s
+  const Tally tally = tallyOf(
+      GetParam(), [](const TrialSettings& setup, std::uint64_t seed) { return runAfter(setup, seed); });
+  EXPECT_LE(tally.falls, 3);
+  EXPECT_GT(tally.speed, 1.0);  // m/s
 }
 
 TEST(Runs, AfterATargetAreHarderTheMoreItLeaps) {
