@@ -70,6 +70,8 @@ TEST_F(Stage, WhoWalksFarFromTheBallLooksAlongItsWayNowAndThen) {
   scene.putBall({-6.0, 0.0});
   Scene::put(scene.world.teammates[7], Pose2(-6.3, 0.0, 0.0));
   scene.stand(Pose2(-8.5, 1.5, 0.0));
+  scene.parameters.formation.stopperBehind = 2.0;
+  behavior = Behavior(scene.parameters);
   int along = 0;
   int atBall = 0;
   for (int i = 0; i < 200; ++i) {

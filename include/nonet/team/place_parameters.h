@@ -9,17 +9,17 @@ namespace nonet::team {
 /// Role positions relative to the ball (offensive group) and on the line from the own goal to the ball
 /// (backs), after [MacAlpine 2012a, section 6.1 and figure 5].
 struct FormationParameters {
-  double forwardAhead = 5.0;
+  double forwardAhead = 6.0;
   double forwardAside = 2.5;
-  double wingBehind = 2.5;
-  double wingAside = 2.0;
-  double stopperBehind = 2.0;
-  double supporterBehind = 4.0;
+  double wingBehind = 0.8;
+  double wingAside = 1.3;
+  double stopperBehind = 1.3;
+  double supporterBehind = 2.5;
   double firstBackFromGoal = 4.0;
   double secondBackFromGoal = 7.0;
   double backAside = 0.7;
   double joinFrom = 17.0;
-  double joinBehind = 1.5;
+  double joinBehind = 2.3;
   double markWithin = 0.0;
   double markFree = 1.5;
   double markBehind = 0.6;
@@ -34,12 +34,12 @@ struct FormationParameters {
           self.forwardAhead);
     visit({"forwardAside", Unit::Metre, {0, 10}, search(1, 5), "Forwards: to the side of the ball"},
           self.forwardAside);
-    visit({"wingBehind", Unit::Metre, {0, 10}, search(1, 5), "Wings: behind the ball"}, self.wingBehind);
-    visit({"wingAside", Unit::Metre, {0, 10}, search(1, 6), "Wings: to the side of the ball"},
+    visit({"wingBehind", Unit::Metre, {0, 10}, search(0.3, 5), "Wings: behind the ball"}, self.wingBehind);
+    visit({"wingAside", Unit::Metre, {0, 10}, search(0.8, 6), "Wings: to the side of the ball"},
           self.wingAside);
     visit({"stopperBehind", Unit::Metre, {0, 10}, search(0.8, 4), "Stopper: behind the ball"},
           self.stopperBehind);
-    visit({"supporterBehind", Unit::Metre, {0, 10}, search(2, 8), "Supporter: behind the ball"},
+    visit({"supporterBehind", Unit::Metre, {0, 10}, search(1.5, 8), "Supporter: behind the ball"},
           self.supporterBehind);
     visit({"firstBackFromGoal",
            Unit::Metre,

@@ -12,9 +12,9 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr int kNumber = 7;       // any but the goalie's
-constexpr double kAhead = 1.5;   // m along the path that the intent leads the ball
-constexpr double kCorner = 0.3;  // m before a corner from which the ball is led to the next leg: it rolls on
+constexpr int kNumber = 7;        // any but the goalie's
+constexpr double kAhead = 0.55;   // m along the path that the intent leads the ball
+constexpr double kCorner = 0.45;  // m before a corner from which the ball is led to the next leg: it rolls on
 
 constexpr double kDribbleFrom = 0.5;  // m behind the ball
 constexpr double kPassFrom = 3.0;     // m

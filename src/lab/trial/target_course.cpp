@@ -328,6 +328,7 @@ CourseResult runCourse(const TrialSettings& setup, std::uint64_t seed, const Cou
                          [](const CourseLeg& leg) { return leg.kind != Kind::Shift; });
     });
   }
+  course.resize(std::min(course.size(), static_cast<std::size_t>(settings.mostItems)));
   return Walker(setup, seed, settings).run(course);
 }
 

@@ -1,6 +1,7 @@
 // The obstacle course, and the tasks that score it. The oracle for the score is the count of what happened.
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +47,19 @@ double measure(const TaskResult& result, std::string_view name) {
   }
   ADD_FAILURE() << "no measure " << name;
   return 0.0;
+}
+
+TEST(Course, EndsAfterSoManyItems) {
+  constexpr std::uint64_t kCourse = 3;
+  const std::vector<CourseItem> course = makeCourse(kCourse);
+  int targets = 0;
+  for (int items = 1; items <= 3; ++items) {
+    for (const CourseLeg& leg : course[static_cast<std::size_t>(items) - 1].legs)
+      targets += leg.kind == CourseLeg::Kind::Stop ? 0 : 1;
+    CourseSettings settings;
+    settings.mostItems = items;
+    EXPECT_EQ(runCourse(setupOf(initialParameters(), kCourse), kCourse, settings).targets, targets);
+  }
 }
 
 TEST(Course, HasEveryItemOnceInAnOrderOfItsSeed) {

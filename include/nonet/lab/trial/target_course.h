@@ -56,6 +56,7 @@ struct CourseSettings {
     All,
     HeldHeading,  // only those of sidesteps and backward steps
   } items = Items::All;
+  int mostItems = 100;  // the first so many, as they are drawn
   motion::WalkSet set = motion::WalkSet::Automatic;
   int mostFalls = 100;  // then the rest of the course is not walked (and earns nothing)
   /// Every target is walked to until it is reached (30 s at most): what counts is CourseResult::time.
