@@ -1,9 +1,9 @@
 // contest: duels for a ball that lies between two robots (lab/trial/ball_trial.h), against the same robot as
 // the data folder has it. A duel is worth 1 if the ball comes 2 m towards the other goal first, 0 if towards
 // the own one, and a fall costs 0.3: whoever lies is missed in the next one.
-#include "nonet/lab/trial/ball_trial.h"
 #include "nonet/math/random.h"
 
+#include "lab/tasks/duel_tally.h"
 #include "lab/tasks/tasks.h"
 
 namespace nonet::lab {
@@ -27,13 +27,9 @@ class ContestTask final : public Task {
     const agent::AgentSettings opponent = dataAgent(settings, settings.robotType);
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(9);
-    double won = 0.0, falls = 0.0;
-    for (int i = 0; i < kDuels; ++i) {
-      const Duel duel = duelOnce(agent, opponent, server, random.next());
-      won += duel.won / kDuels;
-      falls += duel.fell ? 1.0 : 0.0;
-    }
-    return {.fitness = won - kFall * falls / kDuels, .measures = {{"won", won}, {"falls", falls}}};
+    const DuelTally duels = fightDuels(kDuels, agent, opponent, server, random);
+    return {.fitness = duels.won - kFall * duels.falls / kDuels,
+            .measures = {{"won", duels.won}, {"falls", duels.falls}}};
   }
 };
 

@@ -9,7 +9,6 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kFallCost = 20.0;  // rising takes two seconds, in which others have the ball
-constexpr double kPush = 0.4;       // m/s
 
 class DuelTask final : public CourseTask {
  public:
@@ -24,10 +23,14 @@ class DuelTask final : public CourseTask {
 
 }  // namespace
 
+CourseSettings duelCourse() {
+  return {.set = motion::WalkSet::Positioning, .fallCost = kFallCost, .push = kDuelPush};
+}
+
 const Task& duelTask() {
   static const DuelTask task(
       "duel", "the course of goToTarget with pushes as in a crowd; a fall costs 20 instead of 5",
-      "motion.positioning.", {.set = motion::WalkSet::Positioning, .fallCost = kFallCost, .push = kPush});
+      "motion.positioning.", duelCourse());
   return task;
 }
 

@@ -5,6 +5,7 @@
 #include "nonet/lab/trial/ball_trial.h"
 #include "nonet/math/random.h"
 
+#include "lab/tasks/duel_tally.h"
 #include "lab/tasks/tasks.h"
 
 namespace nonet::lab {
@@ -13,14 +14,12 @@ namespace {
 
 constexpr int kApproaches = 2;
 constexpr double kApproachFall = 5.0;  // s
-constexpr double kPush = 0.4;          // m/s
 constexpr int kDuels = 4;
 constexpr double kWon = 2.0;       // s
 constexpr double kDuelFall = 2.0;  // s
 constexpr int kCourseItems = 4;
-constexpr double kCourseFall = 20.0;   // of the course's reward,
-constexpr double kPerReward = 0.06;    // which counts so many seconds,
-constexpr double kUnsteadiness = 2.0;  // and falls by so much for every second of near falls
+constexpr double kPerReward = 0.06;    // s, worth of the course's reward,
+constexpr double kUnsteadiness = 2.0;  // less so much for every second of near falls
 
 class FootworkTask final : public Task {
  public:
@@ -38,7 +37,7 @@ class FootworkTask final : public Task {
     TaskResult result;
     double time = 0.0, falls = 0.0;
     for (int i = 0; i < kApproaches; ++i) {
-      const Approach approach = approachOnce(agent, server, random.next(), kPush);
+      const Approach approach = approachOnce(agent, server, random.next(), kDuelPush);
       time += approach.time / kApproaches;
       falls += approach.fell ? 1.0 : 0.0;
     }
@@ -52,23 +51,16 @@ class FootworkTask final : public Task {
  private:
   static void addDuels(TaskResult& result, const agent::AgentSettings& agent,
                        const agent::AgentSettings& opponent, const sim::Settings& server, Random& random) {
-    double won = 0.0, falls = 0.0;
-    for (int i = 0; i < kDuels; ++i) {
-      const Duel duel = duelOnce(agent, opponent, server, random.next());
-      won += duel.won / kDuels;
-      falls += duel.fell ? 1.0 / kDuels : 0.0;
-    }
-    result.fitness += kWon * won - kDuelFall * falls;
-    result.measures.insert(result.measures.end(), {{"won", won}, {"falls_duel", falls}});
+    const DuelTally duels = fightDuels(kDuels, agent, opponent, server, random);
+    const double falls = static_cast<double>(duels.falls) / kDuels;
+    result.fitness += kWon * duels.won - kDuelFall * falls;
+    result.measures.insert(result.measures.end(), {{"won", duels.won}, {"falls_duel", falls}});
   }
 
   static void addCourse(TaskResult& result, const TrialSettings& setup, std::uint64_t seed) {
-    CourseSettings course;
-    course.set = motion::WalkSet::Positioning;
+    CourseSettings course = duelCourse();
     course.mostItems = kCourseItems;
     course.mostFalls = kMostFalls;
-    course.fallCost = kCourseFall;
-    course.push = kPush;
     const CourseResult walked = runCourse(setup, seed, course);
     result.fitness += kPerReward * (walked.reward - kUnsteadiness * walked.unsteadiness);
     result.measures.insert(

@@ -54,6 +54,10 @@ void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set);
 constexpr int kMostFalls = 4;
 
 constexpr double kLightPush = 0.15;  // m/s, as one's own missteps and the ball give them
+constexpr double kDuelPush = 0.4;    // m/s, as others give them at a contested ball
+
+/// How the task duel walks its course.
+CourseSettings duelCourse();
 
 /// The obstacle course as a task: one way to walk it, and the set that is learned on it.
 class CourseTask : public Task {
