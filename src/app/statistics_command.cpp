@@ -23,7 +23,10 @@ std::string table(const ordered_json& statistics, const std::array<std::string, 
   const ordered_json& right = statistics.at("teams").at(1);
   std::string text = fmt::format("\n{:<24}{:>16}{:>16}\n", "", names[0], names[1]);
   const auto row = [&](const std::string& name, const std::string& key) {
-    text += fmt::format("{:<24}{:>16}{:>16}\n", name, left.at(key).dump(), right.at(key).dump());
+    const auto cell = [&](const ordered_json& team) {
+      return team.contains(key) ? team.at(key).dump() : std::string("-");
+    };
+    text += fmt::format("{:<24}{:>16}{:>16}\n", name, cell(left), cell(right));
   };
   const auto pairRow = [&](const std::string& name, const std::string& key, const std::string& of) {
     const auto cell = [&](const ordered_json& team) {
@@ -32,6 +35,7 @@ std::string table(const ordered_json& statistics, const std::array<std::string, 
     text += fmt::format("{:<24}{:>16}{:>16}\n", name, cell(left), cell(right));
   };
   row("goals", "goals");
+  row("kick-off to goal, s", "kick_off_to_goal_s");
   pairRow("shots on target", "shots_on_target", "shots");
   row("kicks", "kicks");
   pairRow("passes completed", "passes_completed", "passes_tried");

@@ -82,7 +82,8 @@ void MatchStatistics::newGoals(const Frame& frame) {
   for (const TeamIndex team : {0, 1}) {
     const auto i = static_cast<std::size_t>(team);
     for (; score_[i] < frame.score[i]; ++score_[i]) {
-      GoalStatistics goal{frame.time, team, 0, false};
+      GoalStatistics goal{frame.time, team, 0, false, {}};
+      if (kickOffSince_) goal.afterKickOff = frame.time - *kickOffSince_;
       scored(team, goal, frame);
       goals_.push_back(goal);
     }
@@ -124,6 +125,7 @@ void MatchStatistics::newMode(const Frame& frame) {
   if (frame.mode == PlayMode::PlayOn) {
     playSince_ = frame.time;
     fromSetPiece_ = isSetPiece(mode_);
+    if (kindOfMode(mode_) == "kick_off") kickOffSince_ = frame.time;
   } else if (mode_ == PlayMode::PlayOn && kindOfMode(frame.mode) != "pass") {
     const std::string_view kind = kindOfMode(frame.mode);
     const bool out = kind == "kick_in" || kind == "corner_kick" || kind == "goal_kick";

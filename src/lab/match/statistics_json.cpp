@@ -63,7 +63,15 @@ ordered_json MatchStatistics::teamJson(TeamIndex index) const {
   const TeamStatistics& team = this->team(index);
   int goals = 0;
   int falls = 0;
-  for (const GoalStatistics& goal : goals_) goals += goal.team == index ? 1 : 0;
+  double afterKickOff = 0.0;
+  int timed = 0;
+  for (const GoalStatistics& goal : goals_) {
+    if (goal.team != index) continue;
+    ++goals;
+    if (!goal.afterKickOff) continue;
+    ++timed;
+    afterKickOff += *goal.afterKickOff;
+  }
   for (const auto& [unum, player] : team.players) falls += player.falls;
   const double possession = teams_[0].possession + teams_[1].possession;
   ordered_json json = {{"goals", goals},
@@ -78,6 +86,7 @@ ordered_json MatchStatistics::teamJson(TeamIndex index) const {
                        {"falls", falls},
                        {"set_pieces", ordered_json::object()},
                        {"fouls", ordered_json::object()}};
+  if (timed > 0) json["kick_off_to_goal_s"] = rounded(afterKickOff / timed);
   for (const auto& [kind, piece] : team.setPieces) {
     json["set_pieces"][kind] = {{"count", piece.count},
                                 {"mean_s", rounded(piece.count > 0 ? piece.seconds / piece.count : 0.0)},
@@ -109,8 +118,10 @@ ordered_json MatchStatistics::toJson() const {
   for (const double seconds : thirds_)
     json["ball_thirds_percent"].push_back(percent(seconds, secondsInPlay_));
   for (const GoalStatistics& goal : goals_) {
-    json["goals"].push_back(
-        {{"time_s", rounded(goal.time)}, {"team", goal.team}, {"unum", goal.scorer}, {"own", goal.own}});
+    ordered_json entry = {
+        {"time_s", rounded(goal.time)}, {"team", goal.team}, {"unum", goal.scorer}, {"own", goal.own}};
+    if (goal.afterKickOff) entry["after_kick_off_s"] = rounded(*goal.afterKickOff);
+    json["goals"].push_back(entry);
   }
   for (const auto& [time, x, y] : ballPath_)
     json["ball_path"].push_back({rounded(time, 0.1), rounded(x, 0.1), rounded(y, 0.1)});

@@ -217,6 +217,33 @@ TEST_P(Statistics, AGoalIsAShotOnTarget) {
   EXPECT_EQ(s.statistics.team(0).players.at(9).goals, 1);
 }
 
+TEST_P(Statistics, AGoalIsTimedFromTheKickOff) {
+  s.robot(0, 9, 0.0, 0.0);
+  s.mode(PlayMode::KickOffLeft);
+  s.run(15.0);
+  s.mode(PlayMode::PlayOn);
+  s.run(6.0);
+  s.mode(PlayMode::KickInLeft);  // no new beginning
+  s.run(2.0);
+  s.mode(PlayMode::PlayOn);
+  s.run(1.0);
+  s.frame.score = {1, 0};
+  s.mode(PlayMode::GoalLeft);
+  s.run(3.0);
+  ASSERT_TRUE(s.statistics.goals().at(0).afterKickOff);
+  EXPECT_NEAR(*s.statistics.goals()[0].afterKickOff, 9.0, 0.25);
+  EXPECT_NEAR(s.statistics.toJson()["teams"][0]["kick_off_to_goal_s"].get<double>(), 9.0, 0.25);
+  EXPECT_FALSE(s.statistics.toJson()["teams"][1].contains("kick_off_to_goal_s"));
+
+  Script late(GetParam());  // the log begins in the middle of a half
+  late.robot(0, 9, 0.0, 0.0);
+  late.run(5.0);
+  late.frame.score = {1, 0};
+  late.mode(PlayMode::GoalLeft);
+  late.run(1.0);
+  EXPECT_FALSE(late.statistics.goals().at(0).afterKickOff);
+}
+
 TEST_P(Statistics, ASave) {
   shoot(s, 0, 6.0, 0.4);
   while (s.frame.p_WBall.x() < 14.4) s.run(0.2);

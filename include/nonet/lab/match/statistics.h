@@ -12,6 +12,7 @@
 //              or out, and was no shot and no set piece; completed: that player is a mate
 //   goal       of whom the ball came last; deflected, it is the shooter's and no own goal: a shot on target
 //              that the other team touched less than 3 s before without kicking it
+//              Its time is also told from the last kick-off on, taken or dropped
 //   save       the goalkeeper (number 1) is the next to touch a shot on target, and it does not become a goal
 //   possession share of the time in play in which a team was the last to touch the ball
 //   duel       robots of both teams on their feet within 0.7 m of the ball for 0.5 s or more; won by the team
@@ -110,6 +111,7 @@ struct GoalStatistics {
   TeamIndex team = 0;
   int scorer = 0;  // number; 0: not known
   bool own = false;
+  std::optional<double> afterKickOff;  // s since play went on from a kick-off, taken or dropped
 };
 
 /// The name of a foul of that number: "touching", "charging", ...
@@ -196,8 +198,9 @@ class MatchStatistics {
   std::array<int, 2> score_{};
   double modeSince_ = 0.0;
   TeamIndex modeTeam_ = -1;
-  double playSince_ = 0.0;     // play goes on since, s
-  bool fromSetPiece_ = false;  // and came from a set piece
+  double playSince_ = 0.0;              // play goes on since, s
+  bool fromSetPiece_ = false;           // and came from a set piece
+  std::optional<double> kickOffSince_;  // play went on from the last kick-off at, s
 
   std::optional<double> sampleTime_;
   Vector2 p_WBall_ = Vector2::Zero();  // at sampleTime_
