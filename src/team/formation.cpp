@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "nonet/math/direction.h"
 #include "nonet/team/own_area.h"
@@ -61,8 +62,21 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
   }
 }
 
-Places usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
-                   const FormationParameters& parameters) {
+// How far from the own goal the nearer back stands: forward as far as no opponent is left behind it. While
+// nobody knows where they are it stays at home.
+double lineFromGoal(double home, const Vector2& p_FB, std::span<const world::PlayerState> opponents,
+                    const world::FieldGeometry& field, const FormationParameters& parameters) {
+  const Vector2 ownGoal = field.ownGoal();
+  double foremost = std::numeric_limits<double>::infinity();
+  for (const world::PlayerState& opponent : opponents)
+    if (opponent.known) foremost = std::min(foremost, (opponent.X_FP.translation - ownGoal).norm());
+  if (std::isinf(foremost)) return home;
+  return std::max(home, std::min((p_FB - ownGoal).norm() - parameters.lineBehindBall,
+                                 foremost - parameters.lineBehindOpponent));
+}
+
+Places usualPlaces(const Vector2& p_FB, std::span<const world::PlayerState> opponents,
+                   const world::FieldGeometry& field, const FormationParameters& parameters) {
   const Vector2 ownGoal = field.ownGoal();
   const Vector2 goalToBall = p_FB - ownGoal;
   const double distance = std::max(goalToBall.norm(), 1e-6);
@@ -72,6 +86,7 @@ Places usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
   const double nearBack = std::min(parameters.firstBackFromGoal, 0.5 * distance);
   const double farBack = std::min(parameters.secondBackFromGoal, 0.75 * distance);
 
+  const double line = lineFromGoal(nearBack, p_FB, opponents, field, parameters);
   const bool joins = distance > parameters.joinFrom;
   const Vector2 fartherBack = joins ? Vector2(p_FB - parameters.joinBehind * along)
                                     : Vector2(ownGoal + farBack * along - parameters.backAside * aside);
@@ -79,7 +94,7 @@ Places usualPlaces(const Vector2& p_FB, const world::FieldGeometry& field,
   return {
       p_FB,
       p_FB - parameters.stopperBehind * along,
-      ownGoal + nearBack * along + parameters.backAside * aside,
+      ownGoal + line * along + parameters.backAside * aside,
       fartherBack,
       p_FB + Vector2(-parameters.wingBehind, parameters.wingAside),
       p_FB + Vector2(-parameters.wingBehind, -parameters.wingAside),
@@ -101,18 +116,22 @@ std::string_view roleName(Role role) {
 
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
                        const FormationParameters& parameters, const VariantParameters& variant,
-                       std::span<const world::PlayerState> opponents) {
+                       std::span<const world::PlayerState> opponents,
+                       const std::optional<Vector2>& p_FReceiver) {
   assert(count >= 0 && count <= kFieldRoles);
   std::optional<Places> wanted = variantPlaces(p_FB, field, parameters, variant);
   const bool usual = !wanted;
   if (usual) {
-    wanted = usualPlaces(p_FB, field, parameters);
+    wanted = usualPlaces(p_FB, opponents, field, parameters);
     markOpponents(*wanted, opponents, field, parameters);
   }
+  constexpr auto kStopper = static_cast<std::size_t>(Role::Stopper);
+  if (p_FReceiver) (*wanted)[kStopper] = *p_FReceiver;
   Formation formation;
   formation.count = count;
   std::copy_n(wanted->begin(), count, formation.positions.begin());
   spread(formation, field, parameters, usual);
+  if (p_FReceiver) formation.positions[kStopper] = *p_FReceiver;  // even at the touch line
   return formation;
 }
 

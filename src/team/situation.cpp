@@ -31,11 +31,10 @@ Formation placesFor(const Situation& s) {
     // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
     parameters.stopperBehind = std::max(parameters.stopperBehind, s.clearOfOpponentKick() + parameters.apart);
   }
-  Formation places =
-      formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant, world.opponents);
-  if (!s.setPlay) return places;
   // The stopper is the receiver of the own set piece, so whoever is next to that place is the stopper.
-  places.positions[static_cast<std::size_t>(Role::Stopper)] = s.setPlay->p_FReceiver;
+  const std::optional<Vector2> receiver = s.setPlay ? std::optional(s.setPlay->p_FReceiver) : std::nullopt;
+  Formation places = formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant,
+                                  world.opponents, receiver);
   if (s.phase() != world::Phase::OwnKickOff) return places;
   for (int i = 1; i < places.count; ++i) {
     double& x = places.positions[static_cast<std::size_t>(i)].x();

@@ -69,6 +69,38 @@ TEST(Formation, TheFartherBackJoinsAnAttackWhileTheOtherStaysAtHome) {
   }
 }
 
+TEST(Formation, TheNearerBackComesForwardWhileNoOpponentIsBehindIt) {
+  const world::FieldGeometry field;
+  const FormationParameters parameters;
+  const Vector2 goal = field.ownGoal();
+  Random random(17);
+  int compared = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vector2 ball(random.uniform(-14.0, 14.0), random.uniform(-9.0, 9.0));
+    std::vector<world::PlayerState> opponents(4);
+    double foremost = 40.0;
+    for (world::PlayerState& opponent : opponents) {
+      opponent.X_FP.translation = {random.uniform(-14.0, 14.0), random.uniform(-9.0, 9.0)};
+      opponent.known = random.uniform(0.0, 1.0) < 0.5;
+      if (opponent.known) foremost = std::min(foremost, (opponent.X_FP.translation - goal).norm());
+    }
+    const Formation formation = formationFor(ball, 8, field, parameters, {}, opponents);
+    const Vector2 place = formation.positions[static_cast<std::size_t>(Role::BackLeft)];
+    const double home = std::min(parameters.firstBackFromGoal, 0.5 * (ball - goal).norm());
+    double line = home;
+    if (foremost < 40.0 && foremost - 3.0 > home) line = std::min(foremost - 3.0, (ball - goal).norm() - 5.0);
+    line = std::max(line, home);
+    const Vector2 along = (ball - goal).normalized();
+    const Vector2 wanted = goal + line * along + parameters.backAside * Vector2(-along.y(), along.x());
+    // Where places come together (near the ball, the lines and the own goal) it may give way.
+    const Vector2 stopper = formation.positions[static_cast<std::size_t>(Role::Stopper)];
+    if ((wanted - ball).norm() < 1.5 || (wanted - stopper).norm() < 1.5 || wanted.x() < -13.0) continue;
+    ++compared;
+    ASSERT_LT((place - wanted).norm(), 1e-9) << "ball " << ball.transpose();
+  }
+  EXPECT_GT(compared, 1000);
+}
+
 class Marking : public testing::Test {
  protected:
   Marking() { parameters.markWithin = 12.0; }

@@ -2,6 +2,8 @@
 // a dive does not change must not cause one.
 #include "nonet/team/goalie.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "nonet/world/ball_law.h"
@@ -219,10 +221,14 @@ TEST(Goalie, KicksAGoalKickPastItsReceiver) {
 
 // Who is on the ball when the goalie claims it stands ready, but not where the goalie kicks.
 TEST(Goalie, TheOneOnTheBallLeavesItTheWay) {
-  for (const double y : {-1.0, 1.0}) {
+  const std::pair<world::Phase, Vector2> kBalls[] = {{world::Phase::PlayOn, {-13.0, -1.0}},
+                                                     {world::Phase::PlayOn, {-13.0, 1.0}},
+                                                     {world::Phase::OwnGoalKick, {-14.0, 0.0}}};
+  for (const auto& [phase, ball] : kBalls) {
     Scene scene;
-    scene.stand(Pose2(-12.0, y, kPi));
-    scene.putBall({-13.0, y});
+    scene.world.game.phase = phase;
+    scene.stand(Pose2(ball + Vector2(1.0, 0.0), kPi));
+    scene.putBall(ball);
     scene.world.radio[1].time = scene.world.time;
     scene.world.radio[1].message.timeToBall = 0.5;
     const Action action = scene.decideAs(Role::OnBall);

@@ -35,6 +35,9 @@ struct Held : Scene {
     kicks = {straight, left, right};
     motion.kicks = kicks;
     parameters.aside.use = true;
+    // The opponents below are placed for this reach: from farther they would turn the way of the ball too.
+    parameters.target.barReach = 1.5;
+    parameters.target.barWidth = 0.6;
     stand(Pose2(0.8, 0.0, 0.0));
     put(world.opponents[3], Pose2(1.35, 0.0, kPi));
   }

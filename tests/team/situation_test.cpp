@@ -1,6 +1,7 @@
 #include "nonet/team/situation.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -67,19 +68,24 @@ TEST(SituationTracker, TellsWhatWasWeighedOnlyWhenAsked) {
 
 // Roles are given by the places that are taken: else the one who stands ready leaves and another must come.
 TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
-  for (const world::Phase phase :
-       {world::Phase::OwnKickOff, world::Phase::OwnKickIn, world::Phase::OwnGoalKick}) {
+  const std::pair<world::Phase, Vector2> kPieces[] = {{world::Phase::OwnKickOff, {0.0, 0.0}},
+                                                      {world::Phase::OwnKickIn, {3.0, 10.0}},
+                                                      {world::Phase::OwnCorner, {15.0, 10.0}},
+                                                      {world::Phase::OwnCorner, {15.0, -10.0}},
+                                                      {world::Phase::OwnGoalKick, {-14.0, 1.0}}};
+  for (const auto& [phase, ball] : kPieces) {
     Scene scene;
     scene.world.game.phase = phase;
-    scene.putBall(phase == world::Phase::OwnGoalKick ? Vector2(-14.0, 1.0)
-                  : phase == world::Phase::OwnKickIn ? Vector2(3.0, 10.0)
-                                                     : Vector2(0.0, 0.0));
+    scene.putBall(ball);
     const Situation s = scene.situation(Role::Stopper);
     ASSERT_TRUE(s.setPlay);
     EXPECT_LT((s.formation.positions[1] - s.setPlay->p_FReceiver).norm(), 0.5);
     for (int i = 1; i < s.formation.count && phase == world::Phase::OwnKickOff; ++i)
       EXPECT_LE(s.formation.positions[static_cast<std::size_t>(i)].x(),
                 -scene.parameters.setPlay.kickOffLine);
+    for (int i = 2; i < s.formation.count; ++i)
+      EXPECT_GT((s.formation.positions[static_cast<std::size_t>(i)] - s.setPlay->p_FReceiver).norm(), 0.7)
+          << "nobody else is to stand there: " << i << " at ball " << ball.transpose();
   }
 }
 

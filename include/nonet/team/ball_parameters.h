@@ -21,8 +21,8 @@ struct BallTargetParameters {
   double openTurnCost = 0.15;
   double openMiddle = 0.05;
   double aimSpread = 0.15;
-  double barReach = 1.5;
-  double barWidth = 0.6;
+  double barReach = 2.1;
+  double barWidth = 0.45;
   double barCost = 0.8;
   double facingCost = 0.05;
   double keep = 0.2;
@@ -212,7 +212,7 @@ struct BallHandlingParameters {
   double turnedAngle = 1.6;
   double circleRoom = 0.3;
   double circleEither = 0.2;
-  double dribbleThrough = 0.4;
+  double dribbleThrough = 0.6;
   double alignedAngle = 0.45;
   double alignedAside = 0.10;
   bool kick = true;

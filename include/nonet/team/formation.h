@@ -41,10 +41,12 @@ struct Formation {
 
 /// Positions of `count` field players (all but the goalie) when the ball is at p_FB. Near the own goal the
 /// wings' are those that mark `opponents` (marking.cpp). `variant` may ask for another formation than the
-/// team's own (formation_variants.cpp).
+/// team's own (formation_variants.cpp). At an own set piece the receiver's place is the stopper's, and the
+/// others keep away from it.
 Formation formationFor(const Vector2& p_FB, int count, const world::FieldGeometry& field,
                        const FormationParameters& parameters, const VariantParameters& variant = {},
-                       std::span<const world::PlayerState> opponents = {});
+                       std::span<const world::PlayerState> opponents = {},
+                       const std::optional<Vector2>& p_FReceiver = {});
 
 /// With the ball near the own goal the wings' places become those between the own goal and the one or two
 /// most dangerous opponents, the nearest to the goal that are not at the ball.

@@ -282,8 +282,8 @@ struct TeamParameters {
   TouchParameters touch;
   ChallengeParameters challenge;
   VariantParameters variant;
-  double avoidDistance = 0.7;
-  double onBallRoom = 1.2;
+  double avoidDistance = 0.45;
+  double onBallRoom = 0.8;
   double keepBallTime = 1.0;
   double clearOfOpponentKick = 2.3;
   double clearOfGoalKick = 0.8;

@@ -12,14 +12,16 @@ struct FormationParameters {
   double forwardAhead = 6.0;
   double forwardAside = 2.5;
   double wingBehind = 0.8;
-  double wingAside = 1.3;
+  double wingAside = 1.1;
   double stopperBehind = 1.3;
   double supporterBehind = 2.5;
   double firstBackFromGoal = 4.0;
   double secondBackFromGoal = 7.0;
   double backAside = 0.7;
-  double joinFrom = 17.0;
+  double joinFrom = 13.0;
   double joinBehind = 2.3;
+  double lineBehindBall = 5.0;
+  double lineBehindOpponent = 3.0;
   double markWithin = 0.0;
   double markFree = 1.5;
   double markBehind = 0.6;
@@ -63,6 +65,18 @@ struct FormationParameters {
           self.joinFrom);
     visit({"joinBehind", Unit::Metre, {0, 10}, search(1, 4), "It is so far behind the ball then"},
           self.joinBehind);
+    visit({"lineBehindBall",
+           Unit::Metre,
+           {0, 60},
+           search(3, 15),
+           "Nearer back: comes forward up to here behind the ball, if no opponent is farther back"},
+          self.lineBehindBall);
+    visit({"lineBehindOpponent",
+           Unit::Metre,
+           {-5, 30},
+           search(0, 10),
+           "And so far behind the foremost opponent, seen from the own goal"},
+          self.lineBehindOpponent);
     visit({"markWithin",
            Unit::Metre,
            {0, 30},

@@ -35,8 +35,9 @@ std::optional<Action> support(const Situation& s) {
   // On the ball, but the goalie plays it, or it may not be touched twice: ready beside it, and out of the way
   // of a clearance.
   if (s.role == Role::OnBall) {
-    const double away = clearanceTarget(s).y() > 0.0 ? -1.0 : 1.0;
-    return Action(takePlace(s, s.ball() + Vector2(0.0, away * s.parameters.onBallRoom)), "beside the ball");
+    const Vector2 way = (clearanceTarget(s) - s.ball()).stableNormalized();
+    const Vector2 aside = way.y() > 0.0 ? Vector2(way.y(), -way.x()) : Vector2(-way.y(), way.x());
+    return Action(takePlace(s, s.ball() + s.parameters.onBallRoom * aside), "beside the ball");
   }
   return Action(takePlace(s, rolePlace(s)), "place of the role");
 }
