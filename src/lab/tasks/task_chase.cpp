@@ -16,9 +16,8 @@ class ChaseTask final : public Task {
  public:
   std::string_view name() const override { return "chase"; }
   std::string_view description() const override {
-    return "a run of 4 s after a far target that leaps aside, out of a stand or a walk, among pushes, half "
-           "as "
-           "hard as in `run`: its mean speed, 0.4 to 1 m/s less for a fall";
+    return "a run of 8 s after a far target that leaps aside, out of a stand or a walk, among pushes, half "
+           "as hard as in `run`: its mean speed, 0.4 to 1 m/s less for a fall";
   }
   std::vector<std::string> searchedKeys() const override { return {"motion.run.", "motion.sprint."}; }
 
