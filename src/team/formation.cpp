@@ -64,15 +64,14 @@ void spread(Formation& formation, const world::FieldGeometry& field, const Forma
 
 // How far from the own goal the nearer back stands: forward as far as no opponent is left behind it. While
 // nobody knows where they are it stays at home.
-double lineFromGoal(double home, const Vector2& p_FB, std::span<const world::PlayerState> opponents,
+double lineFromGoal(double home, double ballFromGoal, std::span<const world::PlayerState> opponents,
                     const world::FieldGeometry& field, const FormationParameters& parameters) {
-  const Vector2 ownGoal = field.ownGoal();
   double foremost = std::numeric_limits<double>::infinity();
   for (const world::PlayerState& opponent : opponents)
-    if (opponent.known) foremost = std::min(foremost, (opponent.X_FP.translation - ownGoal).norm());
+    if (opponent.known) foremost = std::min(foremost, (opponent.X_FP.translation - field.ownGoal()).norm());
   if (std::isinf(foremost)) return home;
-  return std::max(home, std::min((p_FB - ownGoal).norm() - parameters.lineBehindBall,
-                                 foremost - parameters.lineBehindOpponent));
+  return std::max(
+      home, std::min(ballFromGoal - parameters.lineBehindBall, foremost - parameters.lineBehindOpponent));
 }
 
 Places usualPlaces(const Vector2& p_FB, std::span<const world::PlayerState> opponents,
@@ -86,7 +85,7 @@ Places usualPlaces(const Vector2& p_FB, std::span<const world::PlayerState> oppo
   const double nearBack = std::min(parameters.firstBackFromGoal, 0.5 * distance);
   const double farBack = std::min(parameters.secondBackFromGoal, 0.75 * distance);
 
-  const double line = lineFromGoal(nearBack, p_FB, opponents, field, parameters);
+  const double line = lineFromGoal(nearBack, distance, opponents, field, parameters);
   const bool joins = distance > parameters.joinFrom;
   const Vector2 fartherBack = joins ? Vector2(p_FB - parameters.joinBehind * along)
                                     : Vector2(ownGoal + farBack * along - parameters.backAside * aside);
