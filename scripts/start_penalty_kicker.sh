@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Starts the kicker of a penalty shoot-out: one agent, number 2, in the background. scripts/kill.sh stops it.
+# Starts the kicker of a penalty shoot-out: one agent, number 9, which takes kick-offs, in the background. scripts/kill.sh stops it.
 #   scripts/start_penalty_kicker.sh HOST [PORT]
 #   scripts/start_penalty_kicker.sh HOST [-p PORT] [-t TEAM] [-mh MONITORHOST] [-- OPTIONS OF nonet play]
 # Environment: as scripts/start.sh.
@@ -8,6 +8,6 @@ set -euo pipefail
 parseArguments "$@"
 oneAgent
 findBinary
-launch "${team}_kicker" --unum 2 --type 4 "${options[@]}"
+launch "${team}_kicker" --unum 9 --type 4 "${options[@]}"
 awaitAgents
 echo "started the penalty kicker of team $team for $host:$port; log in $logs/${team}_kicker.log"

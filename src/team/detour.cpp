@@ -15,10 +15,13 @@ namespace nonet::team {
 namespace {
 
 constexpr std::size_t kMostDiscs = 32;
-constexpr int kDepth = 3;         // corners of corners
-constexpr double kFree = 1e-3;    // m, start and end are so far outside of all discs
-constexpr double kNarrow = 0.7;   // share of the radii between two that stand close together
-constexpr double kBlocked = 3.0;  // m, that a way through somebody counts longer
+constexpr int kDepth = 3;        // corners of corners
+constexpr double kFree = 1e-3;   // m, start and end are so far outside of all discs
+constexpr double kNarrow = 0.7;  // share of the radii between two that stand close together
+// That a way through a disc counts longer: in m, and for each metre of a large one's radius, around which it
+// is far.
+constexpr double kBlocked = 3.0;
+constexpr double kBlockedRadii = 4.0;
 // Where the arc is longer, the corner of its two tangents lies far off: then two corners.
 constexpr double kLongestArc = 2.0;  // rad
 
@@ -87,7 +90,7 @@ struct Search {
     const Disc* disc = firstCut(from, to, discs);
     if (disc == nullptr) return best;
     best.blocked = true;
-    best.length += kBlocked;
+    best.length += std::max(kBlocked, kBlockedRadii * disc->radius);
     if (depth == 0) return best;
     for (const double side : {1.0, -1.0}) {
       const Vector2 corner = cornerBeside(*disc, from, to, side);

@@ -17,6 +17,11 @@ world::BallMotion inFrame(const Pose2& X_RF, const world::BallMotion& ball) {
   return {{p.x(), p.y(), ball.p_FB.z()}, {v.x(), v.y(), ball.v_FB.z()}};
 }
 
+// m, when the goalie could be about there.
+double ballToGoal(const Situation& s) {
+  return (s.forecast.at(s.parameters.goalie.claimAhead) - s.world.field.ownGoal()).norm();
+}
+
 bool mayGoTo(const Vector2& p_F, const Situation& s) {
   const GoalieParameters& p = s.parameters.goalie;
   return !p.stayInArea || inOwnArea(s.world.field, p_F, -p.areaMargin);
@@ -61,14 +66,20 @@ Vector2 clearanceTarget(const Situation& s) {
   return {0.0, side >= 0.0 ? p.clearanceAside : -p.clearanceAside};
 }
 
+bool goalieReaches(const Situation& s, bool claims) {
+  if (s.phase() == world::Phase::OwnGoalKick) return true;
+  const GoalieParameters& p = s.parameters.goalie;
+  const double reach = p.attackDistance * (claims ? p.keepClaim : 1.0);
+  return world::isOpenPlay(s.phase()) && s.world.ball.known && ballToGoal(s) <= reach;
+}
+
 bool goalieWantsBall(const Situation& s, bool claims) {
   if (s.phase() == world::Phase::OwnGoalKick) return true;
-  if (!world::isOpenPlay(s.phase()) || comingShot(s)) return false;
+  if (!goalieReaches(s, claims) || comingShot(s)) return false;
   const GoalieParameters& p = s.parameters.goalie;
   const Vector2 goal = s.world.field.ownGoal();
-  const double distance = (s.forecast.at(p.claimAhead) - goal).norm();
-  const double reach = p.attackDistance * (claims ? p.keepClaim : 1.0);
-  if (distance > reach || !mayGoTo(s.forecast.at(p.claimAhead), s)) return false;
+  const double distance = ballToGoal(s);
+  if (!mayGoTo(s.forecast.at(p.claimAhead), s)) return false;
   // A field player that is sooner there and stands well keeps it.
   const Vector2 target = clearanceTarget(s);
   const PaceParameters& pace = s.parameters.pace;

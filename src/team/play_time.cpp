@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "nonet/math/direction.h"
-#include "nonet/world/ball_law.h"
 
 namespace nonet::team {
 
@@ -29,25 +28,24 @@ double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_F
 }  // namespace
 
 BallForecast::BallForecast(const world::WorldState& world, const PaceParameters& pace)
-    : p_FB_(world.ball.p_FB.head<2>()), v_FB_(world.ball.v_FB.head<2>()), longestRoll_(pace.longestRoll) {
+    : free_({world.ball.p_FB, world.ball.v_FB}), longestRoll_(pace.longestRoll) {
+  const Vector2 ball = world.ball.p_FB.head<2>();
   double nearest = pace.carryDistance;
   for (const world::PlayerState& opponent : world.opponents) {
     if (!opponent.known || opponent.fallen) continue;
-    const Vector2 offset = p_FB_ - opponent.X_FP.translation;
+    const Vector2 offset = ball - opponent.X_FP.translation;
     const double speed = opponent.v_FP.norm();
     // It dribbles if it walks after the ball; a ball that rolls away faster than that is lost to it.
     const bool follows = offset.dot(opponent.v_FP) > pace.carryAlong * offset.norm() * speed;
     if (offset.norm() > nearest || speed < pace.carrySpeed || !follows) continue;
     nearest = offset.norm();
-    carried_ = true;
-    v_FB_ = opponent.v_FP;
+    carriedWith_ = opponent.v_FP;
   }
 }
 
 Vector2 BallForecast::at(double seconds) const {
   const double time = std::min(seconds, longestRoll_);
-  const double decay = world::kRollDecay;
-  return p_FB_ + (carried_ ? time : (1.0 - std::exp(-decay * time)) / decay) * v_FB_;
+  return carriedWith_ ? Vector2(free_.at(0.0) + time * *carriedWith_) : free_.at(time);
 }
 
 double timeToBall(const Runner& runner, const BallForecast& ball, const Vector2& p_FTarget,

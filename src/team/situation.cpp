@@ -8,6 +8,7 @@
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/goalie.h"
 #include "nonet/team/pass_mode.h"
+#include "nonet/team/touch_watch.h"
 
 namespace nonet::team {
 
@@ -152,7 +153,8 @@ std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {
   }
   const bool opponents = world::isOpponentSetPiece(s.phase());
   if (s.role != Role::OnBall || s.goalieClaims || opponents) return std::nullopt;
-  if (s.setPlay) return setPiece(s, record);
+  const bool alone = s.phase() == world::Phase::OwnKickOff && atMostTwoPlay(s.world);
+  if (s.setPlay && !alone) return setPiece(s, record);
   if (!s.mayTouch) return std::nullopt;
   if (s.parameters.variant.clearFirst && s.ball().x() < 0.0)
     return playTowards(s, awayTarget(s), KickUse::Clear);

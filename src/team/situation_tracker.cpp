@@ -19,8 +19,11 @@ Situation SituationTracker::update(const world::WorldState& world, const motion:
   situation.onBall = voting_.onBall();
   situation.mayTouch = banned != world.game.unum;
   if (touches_.barred() == world.game.unum) situation.mayScore = false;
-  if (situation.role == Role::Goalie && situation.acts())
-    claims_ = situation.mayTouch && goalieWantsBall(situation, claims_);
+  if (situation.role == Role::Goalie) {
+    // In the middle of a kick or a fall it holds on to a ball that is still near.
+    claims_ = situation.mayTouch && (situation.acts() ? goalieWantsBall(situation, claims_)
+                                                      : claims_ && goalieReaches(situation, true));
+  }
   situation.claims = claims_;
   situation.lastBeam = lastBeam_;
   if (!intent_) {

@@ -1,15 +1,27 @@
 #include "nonet/team/touch_watch.h"
 
+#include <algorithm>
+
 #include "nonet/team/pass_mode.h"
 
 namespace nonet::team {
 
+bool atMostTwoPlay(const world::WorldState& world) {
+  const auto known = [](const auto& players) {
+    return std::count_if(players.begin(), players.end(), [](const world::PlayerState& p) { return p.known; });
+  };
+  return known(world.teammates) + known(world.opponents) <= 2;
+}
+
 void TouchWatch::update(const world::WorldState& world) {
   const world::Phase phase = world.game.phase;
+  if (phase == world::Phase::OwnGoalKick && world.ball.v_FB.head<2>().norm() < parameters_.resting)
+    goalKicker_ = nearestAtBall(world, true);
   if (phase != phase_) {
     const bool playOn = phase == world::Phase::PlayOn;
-    const bool wasOwn = world::isOwnSetPiece(phase_) && !world.game.ballDropped;
-    taker_ = playOn && wasOwn ? nearestAtBall(world, true) : Kicker{};
+    const bool free = phase_ == world::Phase::OwnKickOff && atMostTwoPlay(world);
+    const bool wasOwn = world::isOwnSetPiece(phase_) && !world.game.ballDropped && !free;
+    taker_ = playOn && wasOwn ? takerOf(phase_, world) : Kicker{};
     passer_ = playOn && phase_ == world::Phase::OwnPass ? nearestAtBall(world, false) : Kicker{};
     phase_ = phase;
   }
@@ -18,6 +30,12 @@ void TouchWatch::update(const world::WorldState& world) {
   };
   if (taker_.unum != 0 && passed(taker_, parameters_.longest, true)) taker_ = {};
   if (passer_.unum != 0 && passed(passer_, kPassModeNoGoal, false)) passer_ = {};
+}
+
+// Play goes on with the touch, but at the goal kick not before the ball has left the area.
+TouchWatch::Kicker TouchWatch::takerOf(world::Phase piece, const world::WorldState& world) const {
+  if (piece == world::Phase::OwnGoalKick) return {goalKicker_.unum, world.time};
+  return nearestAtBall(world, true);
 }
 
 // Nobody if it is an opponent.

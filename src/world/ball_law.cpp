@@ -1,6 +1,8 @@
 #include "nonet/world/ball_law.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nonet::world {
 
@@ -43,6 +45,59 @@ void stepBall(BallMotion& ball, double dt) {
     ball.v_FB.z() = up > kLiftSpeed ? up : 0.0;
     ball.v_FB.head<2>() *= kBounceGrip;
   }
+}
+
+void moveBall(BallMotion& ball, double seconds) {
+  while (seconds > 1e-9) {
+    const double dt = isFlying(ball) ? std::min(seconds, kCycleTime) : seconds;
+    stepBall(ball, dt);
+    seconds -= dt;
+  }
+}
+
+FreeBall::FreeBall(const BallMotion& ball) {
+  BallMotion motion = ball;
+  double time = 0.0;
+  add(time, motion);
+  for (int i = 0; i < kMaximumSteps && isFlying(motion); ++i) {
+    const double fall = motion.v_FB.z();
+    stepBall(motion, kCycleTime);
+    time += kCycleTime;
+    const bool bounced = fall < 0.0 && motion.v_FB.z() >= 0.0;
+    if (bounced && count_ + 1 < kMostLegs) add(time, motion);
+  }
+  // A last hop lower than a flying ball ends without a bounce.
+  if (legs_[count_ - 1].decay != kRollDecay) add(time, motion);
+}
+
+void FreeBall::add(double begin, const BallMotion& ball) {
+  legs_[count_++] = {begin, ball.p_FB.head<2>(), ball.v_FB.head<2>(),
+                     isFlying(ball) ? kAirDecay : kRollDecay};
+}
+
+Vector2 FreeBall::at(double seconds) const {
+  std::size_t i = count_ - 1;
+  while (i > 0 && legs_[i].begin > seconds) --i;
+  const Leg& leg = legs_[i];
+  return leg.p_FB + (1.0 - std::exp(-leg.decay * (seconds - leg.begin))) / leg.decay * leg.v_FB;
+}
+
+double FreeBall::slowAfter(double speed) const {
+  const Leg& roll = legs_[count_ - 1];
+  return roll.begin + std::max(0.0, std::log(roll.v_FB.norm() / speed) / roll.decay);
+}
+
+double FreeBall::goneAfter(double distance) const {
+  double gone = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Leg& leg = legs_[i];
+    const bool last = i + 1 == count_;
+    const double length = last ? leg.v_FB.norm() / leg.decay : (legs_[i + 1].p_FB - leg.p_FB).norm();
+    if (distance < gone + length)
+      return leg.begin - std::log(1.0 - leg.decay * (distance - gone) / leg.v_FB.norm()) / leg.decay;
+    gone += length;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 Vector2 restPlace(const BallMotion& ball) {

@@ -27,13 +27,6 @@ constexpr double kKnownSigma = 1.2;    // m
 constexpr double kKnownAge = 8.0;      // s
 constexpr int kAbsencesToForget = 3;
 
-/// Comfortably inside the view: there it must be seen, since nothing hides it (server facts 2.7).
-bool clearlyInView(const Vector3& p_CB) {
-  const double azimuth = std::atan2(p_CB.y(), p_CB.x());
-  const double elevation = std::atan2(p_CB.z(), p_CB.head<2>().norm());
-  return std::abs(azimuth) < toRadians(50.0) && std::abs(elevation) < toRadians(50.0) && p_CB.norm() > 0.3;
-}
-
 }  // namespace
 
 BallMotion BallTracker::motion() const {
@@ -50,7 +43,7 @@ void BallTracker::predict(double dt) {
   if (!started_) return;
   BallMotion ball = motion();
   const bool flying = isFlying(ball);
-  for (double left = dt; left > 1e-9; left -= kCycleTime) stepBall(ball, std::min(left, kCycleTime));
+  moveBall(ball, dt);
   const double speed = ball.v_FB.head<2>().norm();
   setMotion(ball);
   const double decay = flying ? kAirDecay : kRollDecay;
@@ -93,7 +86,7 @@ void BallTracker::see(const protocol::Vision& vision, const SelfState& self, con
   if (!vision.ball || !vision.ball->isFinite()) {
     if (!started_) return;
     const Vector3 p_CB = self.X_FC.inverse() * Vector3(state_(0), state_(1), height_);
-    absences_ = clearlyInView(p_CB) ? absences_ + 1 : 0;
+    absences_ = clearlyInView(p_CB, 0.0) ? absences_ + 1 : 0;
     if (absences_ >= kAbsencesToForget) started_ = false;
     return;
   }
@@ -180,17 +173,8 @@ void BallTracker::measure(const Vector3& p_FB, const Matrix3& covariance, double
 // ball that has left the ground just now and is up for so long.
 BallMotion BallTracker::reported(const Report& report, double age) {
   BallMotion ball{{report.p_FB.x(), report.p_FB.y(), kBallRestHeight},
-                  {report.v_FB.x(), report.v_FB.y(), 0.0}};
-  const auto advance = [&](double decay, double time) {
-    const double left = std::exp(-decay * time);
-    ball.p_FB += ball.v_FB * (1.0 - left) / decay;
-    ball.v_FB *= left;
-  };
-  const double flown = std::min(age, report.landsIn);
-  advance(kAirDecay, flown);
-  if (report.landsIn > 0.0 && flown == report.landsIn) ball.v_FB *= kBounceGrip;
-  advance(kRollDecay, age - flown);
-  ball.v_FB.z() = 0.5 * kGravity * (report.landsIn - flown);
+                  {report.v_FB.x(), report.v_FB.y(), 0.5 * kGravity * report.landsIn}};
+  moveBall(ball, age);
   return ball;
 }
 

@@ -22,6 +22,9 @@ constexpr double kHeadingSigma = 0.35;      // rad, worst heading that is worth 
 constexpr double kOwnSight = 0.3;           // s by which a mate's sighting must be newer than the own one
 constexpr double kOwnSpeed = 0.6;           // s for which the speed that one saw oneself is believed
 constexpr double kJump = 1.5;               // m, farther than any player walks between two sightings
+constexpr double kRoom = 0.3;               // m around a player in which its parts are, beside two sigmas
+constexpr double kMiddle = 0.3;             // m, height of a player's middle
+constexpr int kAbsencesToForget = 3;
 
 std::size_t at(BodyPart part) {
   return static_cast<std::size_t>(part);
@@ -149,7 +152,19 @@ void PlayerTracker::merge(const Sighting& sighting, double time, PlayerState& pl
   player.lastSeen = time;
 }
 
-void PlayerTracker::see(const protocol::Vision& vision, const Vector3& offset, WorldState& state) const {
+void PlayerTracker::missOpponents(WorldState& state) {
+  for (std::size_t i = 1; i < state.opponents.size(); ++i) {
+    PlayerState& player = state.opponents[i];
+    const Vector2& p_FP = player.X_FP.translation;
+    const Vector3 p_CP = state.self.X_FC.inverse() * Vector3(p_FP.x(), p_FP.y(), kMiddle);
+    const bool missed =
+        player.known && player.lastSighted < state.time && clearlyInView(p_CP, kRoom + 2.0 * player.sigma);
+    absences_[i] = missed ? absences_[i] + 1 : 0;
+    if (absences_[i] >= kAbsencesToForget) player.known = false;
+  }
+}
+
+void PlayerTracker::see(const protocol::Vision& vision, const Vector3& offset, WorldState& state) {
   if (!state.self.localized && state.self.covariance(0, 0) > 1.0) return;
   // First those with numbers, so that the others find the free tracks.
   for (int pass = 0; pass < 2; ++pass) {
@@ -171,6 +186,7 @@ void PlayerTracker::see(const protocol::Vision& vision, const Vector3& offset, W
       player->lastSighted = state.time;
     }
   }
+  if (state.self.localized) missOpponents(state);
 }
 
 void PlayerTracker::hear(const Report& report, WorldState& state) const {

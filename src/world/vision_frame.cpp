@@ -24,6 +24,17 @@ double VisionNoise::distanceSigma(double distance) {
   return std::sqrt(kShare * kShare * distance * distance + kPrinting * kPrinting);
 }
 
+bool clearlyInView(const Vector3& p_CP, double room) {
+  constexpr double kSide = 50.0 * kPi / 180.0;  // of the 60 degrees that the view reaches to each side
+  constexpr double kNear = 0.3;                 // m
+  const double distance = p_CP.norm();
+  if (distance < kNear + room) return false;
+  const double side = kSide - std::asin(room / distance);
+  const double azimuth = std::atan2(p_CP.y(), p_CP.x());
+  const double elevation = std::atan2(p_CP.z(), p_CP.head<2>().norm());
+  return std::abs(azimuth) < side && std::abs(elevation) < side;
+}
+
 ObservedPoint::ObservedPoint(const protocol::Polar& polar) {
   const double cosAzimuth = std::cos(polar.azimuth);
   const double sinAzimuth = std::sin(polar.azimuth);

@@ -160,6 +160,8 @@ void WorldModel::Stages::followBall(const protocol::Percept& percept) {
     spotSince = now.phaseSince;
     spot.reset();
     if (state.ball.known) spot = setPieceSpot(now.phase, state.ball.p_FB.head<2>(), state.field);
+    // It has lain in the goal until now, and does not roll on.
+    if (isKickOff(now.phase)) ball.put(Vector2::Zero(), state.time);
   }
   ball.predict(state.body.cycleTime);
   const bool rollsOn = spot && state.time - now.phaseSince < kBallRollsOn;

@@ -382,7 +382,7 @@ TEST_F(Scripts, StartThePenaltyPlayers) {
   serve({});
   run("start_penalty_kicker.sh", {"127.0.0.1", std::to_string(port), "-t", "Ours"});
   run("start_penalty_goalie.sh", {"127.0.0.1", "-p", std::to_string(port), "-t", "Theirs"});
-  EXPECT_TRUE(server->says("number 2 of team Ours")) << server->output();
+  EXPECT_TRUE(server->says("number 9 of team Ours")) << server->output();
   EXPECT_TRUE(server->says("number 1 of team Theirs")) << server->output();
   EXPECT_NE(run("kill.sh", {}).find("stopped 2 agents"), std::string::npos);
 }

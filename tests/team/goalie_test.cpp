@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/team/situation_tracker.h"
 #include "nonet/world/ball_law.h"
 
 #include "scene.h"
@@ -184,6 +185,17 @@ TEST(Goalie, KeepsItsClaimInALargerRegion) {
     EXPECT_EQ(goalieWantsBall(situation, false), first) << distance;
     EXPECT_EQ(goalieWantsBall(situation, true), again) << distance;
   }
+}
+
+// It cannot change its mind while it kicks, but the ball is nobody's any more once it has gone.
+TEST(Goalie, ItsClaimEndsWithItsClearance) {
+  Scene scene = goalieScene({-13.5, 0.2}, {0.0, 0.0});
+  SituationTracker tracker(scene.parameters);
+  EXPECT_TRUE(tracker.update(scene.world, scene.motion).claims);
+  scene.motion.busy = true;
+  EXPECT_TRUE(tracker.update(scene.world, scene.motion).claims);
+  scene.putBall({-12.8, 0.6}, {5.0, 2.0});
+  EXPECT_FALSE(tracker.update(scene.world, scene.motion).claims);
 }
 
 // In the middle the ball's side is what the eyes tell.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "nonet/team/situation_tracker.h"
+#include "nonet/world/ball_law.h"
 
 #include "scene.h"
 
@@ -52,6 +53,22 @@ TEST(Receive, ABallThatItCannotReachIsNotReceived) {
   scene.putBall({6.0, 1.0}, {-8.0, 0.0});
   EXPECT_TRUE(scene.act());
   EXPECT_GT(scene.speed().translation.y(), 0.5);
+}
+
+// It flies over the robot, and is met where it comes down: oracle is the law of the ball, stepped.
+TEST(Receive, ABallInTheAirIsMetWhereItComesDown) {
+  Coming scene;
+  scene.parameters.receive.pace = 1.5;
+  scene.putBall({3.0, 0.0}, {-5.0, 0.0});
+  scene.world.ball.p_FB.z() = 0.5;
+  scene.world.ball.v_FB.z() = 4.0;
+  world::BallMotion ball{scene.world.ball.p_FB, scene.world.ball.v_FB};
+  for (double fall = 0.0; fall >= 0.0 || ball.v_FB.z() < 0.0;) {
+    fall = ball.v_FB.z();
+    world::stepBall(ball, kCycleTime);
+  }
+  ASSERT_LT(ball.p_FB.x(), -0.5);
+  EXPECT_LT(scene.speed().translation.x(), 0.9 * scene.parameters.receive.gain * ball.p_FB.x());
 }
 
 TEST(Receive, OnlyABallThatComes) {

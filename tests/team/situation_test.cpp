@@ -67,6 +67,24 @@ TEST(SituationTracker, TellsWhatWasWeighedOnlyWhenAsked) {
 }
 
 // Roles are given by the places that are taken: else the one who stands ready leaves and another must come.
+// A penalty shoot-out: nobody to wait for, and the goal to go to.
+TEST(Situation, WhoIsAloneAgainstAGoalieTakesTheKickOffTowardsTheGoal) {
+  Scene scene;
+  scene.world.game.phase = world::Phase::OwnKickOff;
+  scene.world.game.phaseSince = scene.world.time - 1.0;
+  scene.putBall({0.0, 0.0});
+  scene.stand(Pose2(-0.4, 0.0, 0.0));
+  Scene::put(scene.world.opponents[1], Pose2(14.5, 0.0, kPi));
+  const Situation alone = scene.situation(Role::OnBall);
+  ASSERT_TRUE(alone.play);
+  EXPECT_FALSE(alone.play->wait);
+  EXPECT_EQ(alone.play->p_FTarget, alone.p_FTarget);
+  Scene::put(scene.world.teammates[7], Pose2(-5.0, 0.0, 0.0));
+  const Situation withMate = scene.situation(Role::OnBall);
+  ASSERT_TRUE(withMate.play);
+  EXPECT_TRUE(withMate.play->wait) << "for the receiver";
+}
+
 TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
   const std::pair<world::Phase, Vector2> kPieces[] = {{world::Phase::OwnKickOff, {0.0, 0.0}},
                                                       {world::Phase::OwnKickIn, {3.0, 10.0}},

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "nonet/math/random.h"
+#include "nonet/math/straight_way.h"
 
 #include "scene.h"
 
@@ -130,6 +131,22 @@ TEST(Strategy, KeepsTheDistanceAtTheOpponentsSetPieces) {
     EXPECT_NEAR((place - ball).norm(), clear, 1e-6);
     // What decides for a place on the ball itself turns it by a hundredth of a radian at most.
     EXPECT_LT((place - (ball + clear * way)).norm(), 0.0101 * clear);
+  }
+}
+
+// From the other side of the ball: around the circle, not through it.
+TEST(Strategy, WalksAroundTheCircleOfTheOpponentsSetPiece) {
+  Scene scene;
+  scene.world.game.phase = Phase::OpponentFreeKick;
+  scene.putBall({2.0, 1.0});
+  const Vector2 ball = scene.world.ball.p_FB.head<2>();
+  for (const double aside : {-1.0, 0.0, 0.1, 1.0}) {
+    const Vector2 start = ball + Vector2(4.0, aside);
+    scene.stand(Pose2(start, kPi));
+    const Vector2 next = goalOf(scene, *opponentSetPiece(scene.situation(Role::OnBall)));
+    const StraightWay way(start, next);
+    EXPECT_GT((next - start).norm(), 1.0);
+    EXPECT_GT(way.distanceTo(ball), 2.1) << aside;
   }
 }
 

@@ -63,6 +63,35 @@ TEST_F(Scene, AnOpponentThatTookThePieceBansNobody) {
   EXPECT_EQ(watch.banned(), 0);
 }
 
+// Play goes on when the ball leaves the area, far from the goalie.
+TEST_F(Scene, WhoTookTheGoalKickIsBannedNotWhoIsNearWhenTheBallLeavesTheArea) {
+  place(world.teammates[1], -14.2, 0.0);
+  ball(-14.0, 0.0);
+  play(world::Phase::OwnGoalKick, 3.0);
+  world.ball.v_FB = Vector3(5.0, 2.0, 0.0);
+  ball(-13.0, 0.4);
+  play(world::Phase::OwnGoalKick, 0.2);
+  place(world.teammates[9], -12.5, 1.0);
+  ball(-13.1, 0.8);
+  play(world::Phase::PlayOn, 0.1);
+  EXPECT_EQ(watch.banned(), 1);
+  ball(-12.6, 0.9);
+  play(world::Phase::PlayOn, 0.1);
+  EXPECT_EQ(watch.banned(), 0) << "number 9 has it";
+}
+
+// Server facts 4.3: with two players the taker of the kick-off may go on.
+TEST_F(Scene, NobodyIsBannedInAPenaltyShootOut) {
+  world.teammates[6].known = false;
+  play(world::Phase::OwnKickOff, 2.0);
+  play(world::Phase::PlayOn, 0.2);
+  EXPECT_EQ(watch.banned(), 0);
+  world.teammates[6].known = true;
+  play(world::Phase::OwnKickOff, 2.0);
+  play(world::Phase::PlayOn, 0.2);
+  EXPECT_EQ(watch.banned(), 9);
+}
+
 TEST_F(Scene, NobodyIsBannedAfterADropBallOrTheOpponentsKick) {
   play(world::Phase::OwnKickOff, 15.0);
   world.game.ballDropped = true;

@@ -142,6 +142,32 @@ TEST(BodyTracker, WhoIsPutUprightStands) {
   EXPECT_EQ(state.posture, Posture::Upright);
 }
 
+// It leans at 0.8 rad on something and does not move: not upright, and not falling for ever.
+TEST(BodyTracker, WhoLeansForLongCountsAsFallen) {
+  BodyTracker tracker(model::robotModel(0), {});
+  BodyState state;
+  int cycle = 0;
+  double pitch = 0.0;
+  const auto turn = [&](double rate, double seconds) {
+    for (const int end = cycle + static_cast<int>(seconds / kCycleTime); cycle < end; ++cycle) {
+      pitch += kCycleTime * rate;
+      protocol::Percept percept = standing(5.0 + cycle * kCycleTime);
+      percept.gyro = Vector3(0.0, rate, 0.0);
+      percept.accelerometer = kGravity * Vector3(-std::sin(pitch), 0.0, std::cos(pitch));
+      percept.joints[0] = 1e-4 * (cycle % 2);  // awake
+      tracker.update(percept, state);
+    }
+  };
+  turn(0.0, 0.2);
+  turn(1.6, 0.5);
+  turn(0.0, 1.0);
+  EXPECT_EQ(state.posture, Posture::Falling);
+  turn(0.0, 1.5);
+  EXPECT_EQ(state.posture, Posture::FallenFront);
+  turn(-1.6, 0.5);
+  EXPECT_EQ(state.posture, Posture::Upright);
+}
+
 TEST(BodyTracker, IntegratesLostTurns) {
   // A constant turn of 1 rad/s about z, every third message lost.
   BodyTracker tracker(model::robotModel(0), {});

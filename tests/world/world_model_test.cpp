@@ -263,7 +263,14 @@ TEST(SetPieceSpot, IsWhereTheServerPutsTheBall) {
     EXPECT_LT((spot(Phase::OpponentGoalKick, 15.3, 4.0) - Vector2(14.0, 0.0)).norm(), 1e-9);
   }
   EXPECT_FALSE(setPieceSpot(Phase::PlayOn, {0.0, 0.0}, field));
-  EXPECT_FALSE(setPieceSpot(Phase::OwnFreeKick, {0.0, 0.0}, field));
+  const auto free = [&](Phase phase, double x, double y) { return *setPieceSpot(phase, {x, y}, field); };
+  for (const Phase phase : {Phase::OwnFreeKick, Phase::OpponentDirectFreeKick}) {
+    EXPECT_EQ(free(phase, 3.0, -2.0), Vector2(3.0, -2.0));
+    EXPECT_EQ(free(phase, 14.0, -3.2), Vector2(14.0, -3.2));
+    // In a penalty area: its front corner on that side.
+    EXPECT_LT((free(phase, 14.0, -0.5) - Vector2(13.2, -3.0)).norm(), 1e-9);
+    EXPECT_LT((free(phase, -13.5, 2.9) - Vector2(-13.2, 3.0)).norm(), 1e-9);
+  }
 }
 
 // It rolls on for a second, and then lies there: nobody runs after it.
@@ -437,7 +444,7 @@ TEST(WorldModel, ForgetsPlayersWithGrace) {
   double sigma = world.state().opponents[4].sigma;
   for (int i = 0; i < 600; ++i) {
     protocol::Percept percept = scene.next();
-    if (percept.vision) percept.vision->players.clear();
+    percept.vision.reset();  // nobody is missed where nothing is seen
     world.update(percept);
     if (i == 100) {
       EXPECT_TRUE(world.state().opponents[4].known);
@@ -445,6 +452,53 @@ TEST(WorldModel, ForgetsPlayersWithGrace) {
     }
   }
   EXPECT_FALSE(world.state().opponents[4].known);
+}
+
+protocol::SayMessage tellingOfNumberFour() {
+  protocol::SayMessage message;
+  message.kind = protocol::SayKind::Sightings;
+  message.unum = 7;
+  message.X_FR = Pose2(1.0, -2.0, 0.0);
+  message.sigma = 0.05;
+  message.sightings[0] = {4, Vector2(4.0, 0.5), false, 0.05};
+  return message;
+}
+
+// Nothing hides a player: who is not where it must be seen has been carried away by the referee.
+TEST(WorldModel, MissesAnOpponentThatWasCarriedAway) {
+  for (const double heading : {0.1, 1.4}) {  // it sees the place, and not
+    Scene scene(TeamSide::Left, Pose2(-3.0, 0.0, heading));
+    WorldModel world(model::robotModel(0), {}, protocol::TeamName("Us"), 1);
+    for (int i = 0; i < 60; ++i) world.update(scene.next());
+    const bool seen = world.state().opponents[4].known;
+    if (!seen) world.update(hearing(scene.next(), tellingOfNumberFour()));
+    ASSERT_TRUE(world.state().opponents[4].known);
+    for (int i = 0; i < 15; ++i) {
+      protocol::Percept percept = scene.next();
+      if (percept.vision) percept.vision->players.clear();
+      world.update(percept);
+    }
+    EXPECT_EQ(world.state().opponents[4].known, !seen) << heading;
+    EXPECT_TRUE(world.state().teammates[7].known) << "a mate tells where it is";
+  }
+}
+
+TEST(WorldModel, AtAKickOffTheBallLiesInTheMiddle) {
+  Scene scene(TeamSide::Left, Pose2(-3.0, 0.0, 0.1));
+  WorldModel world(model::robotModel(0), {}, protocol::TeamName("Us"), 1);
+  const auto update = [&](PlayMode mode, bool sees) {
+    protocol::Percept percept = scene.next();
+    percept.game.playMode = mode;
+    if (!sees) percept.vision.reset();
+    world.update(percept);
+    return world.state().ball.p_FB.head<2>().eval();
+  };
+  for (int i = 0; i < 150; ++i) update(PlayMode::GoalRight, true);
+  ASSERT_LT((update(PlayMode::GoalRight, false) - Vector2(2.0, 1.0)).norm(), 0.1);
+  for (int i = 0; i < 3; ++i) EXPECT_LT(update(PlayMode::KickOffLeft, false).norm(), 0.05);
+  // What is seen counts at once: from the first touch on it rolls.
+  for (int i = 0; i < 6; ++i) update(PlayMode::KickOffLeft, true);
+  EXPECT_LT((update(PlayMode::KickOffLeft, true) - Vector2(2.0, 1.0)).norm(), 0.2);
 }
 
 TEST(WorldModel, SameInputGivesTheSameBits) {

@@ -219,6 +219,7 @@ struct RadioParameters {
 /// Who took the own set piece and must not touch the ball again (touch_watch.h).
 struct TouchParameters {
   double takerReach = 1.2;
+  double resting = 0.3;
   double touchReach = 0.24;
   double turnedReach = 0.45;
   double turnedAfter = 0.5;
@@ -230,6 +231,12 @@ struct TouchParameters {
     using namespace config;
     visit({"takerReach", Unit::Metre, {0, 5}, fixed, "The taker is this near to the ball when play goes on"},
           self.takerReach);
+    visit({"resting",
+           Unit::MetrePerSecond,
+           {0, 5},
+           fixed,
+           "The taker of a goal kick is who was so near when the ball was last slower than this"},
+          self.resting);
     visit({"touchReach",
            Unit::Metre,
            {0, 2},

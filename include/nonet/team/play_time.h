@@ -1,8 +1,11 @@
 // How soon a robot could play the ball: the measure by which the team decides who goes to it.
 #pragma once
 
+#include <optional>
+
 #include "nonet/math/pose2.h"
 #include "nonet/team/parameters.h"
+#include "nonet/world/ball_law.h"
 #include "nonet/world/world_state.h"
 
 namespace nonet::team {
@@ -14,18 +17,20 @@ struct Runner {
   bool fallen = false;
 };
 
-/// Where the ball will be: rolling freely, or carried on by an opponent that dribbles it. Own field frame.
+/// Where the ball will be: flying and rolling freely, or carried on by an opponent that dribbles it. Own
+/// field frame.
 class BallForecast {
  public:
   BallForecast(const world::WorldState& world, const PaceParameters& pace);
   /// After `seconds`, if none of us touches it, m.
   Vector2 at(double seconds) const;
+  /// The same if opponents let it go too.
+  const world::FreeBall& free() const { return free_; }
 
  private:
-  Vector2 p_FB_ = Vector2::Zero();
-  Vector2 v_FB_ = Vector2::Zero();
-  double longestRoll_ = 0.0;  // s
-  bool carried_ = false;
+  world::FreeBall free_;
+  double longestRoll_ = 0.0;                 // s
+  std::optional<Vector2> carriedWith_ = {};  // m/s, velocity of the opponent that dribbles it
 };
 
 /// Seconds until the runner can push the ball towards p_FTarget: rising, turning, the way to where the ball

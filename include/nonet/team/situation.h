@@ -72,5 +72,7 @@ std::optional<BallPlay> ownTurn(const Situation& situation, Candidates* record =
 
 /// Whether the goalie goes to the ball; `claims`: it does so already.
 bool goalieWantsBall(const Situation& situation, bool claims);
+/// Whether the ball is (own goal kick) or will soon be so near to the goal that the goalie may go to it.
+bool goalieReaches(const Situation& situation, bool claims);
 
 }  // namespace nonet::team

@@ -8,6 +8,10 @@
 
 namespace nonet::team {
 
+/// No more than one player beside oneself is known, as in a penalty shoot-out: who takes the kick-off may go
+/// on with the ball (server facts 4.3).
+bool atMostTwoPlay(const world::WorldState& world);
+
 class TouchWatch {
  public:
   explicit TouchWatch(const TouchParameters& parameters = {}) : parameters_(parameters) {}
@@ -24,11 +28,13 @@ class TouchWatch {
     double at = world::kNever;  // server time, s
   };
 
+  Kicker takerOf(world::Phase piece, const world::WorldState& world) const;
   Kicker nearestAtBall(const world::WorldState& world, bool opponentsToo) const;
   bool touchedByAnother(const world::WorldState& world, const Kicker& kicker, bool opponentsToo) const;
 
   TouchParameters parameters_;
   world::Phase phase_ = world::Phase::Other;
+  Kicker goalKicker_;  // who was at the ball when it last lay still for the own goal kick
   Kicker taker_;
   Kicker passer_;
 };

@@ -10,6 +10,7 @@ struct WorldParameters {
   double fallingAngle = 0.7;
   double uprightAngle = 0.45;
   double fallPreview = 0.1;
+  double longestLean = 2.0;
   // For measurements of what each part is worth.
   bool useParticleFilter = true;
   bool usePoseFit = true;
@@ -42,6 +43,12 @@ struct WorldParameters {
            fixed,
            "Preview of the tilt for falling: about sqrt(height of the centre of mass / gravity)"},
           self.fallPreview);
+    visit({"longestLean",
+           Unit::Second,
+           {0.1, 20.0},
+           fixed,
+           "A robot that has been falling for longer leans on something: it counts as fallen"},
+          self.longestLean);
     visit(
         {"useParticleFilter",
          Unit::None,

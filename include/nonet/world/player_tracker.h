@@ -2,8 +2,11 @@
 // what team mates tell about themselves, and from the opponents that they tell of.
 //
 // Needs: own pose, the vision message, radio reports. Gives: PlayerState per number. Players without a number
-// (or of a third team) go to the nearest opponent that could have moved there, else to a free number.
+// (or of a third team) go to the nearest opponent that could have moved there, else to a free number. An
+// opponent that is not seen where it must be seen has been carried away by the referee, and is forgotten.
 #pragma once
+
+#include <array>
 
 #include "nonet/protocol/percept.h"
 #include "nonet/world/world_state.h"
@@ -30,7 +33,7 @@ class PlayerTracker {
   };
 
   void predict(double dt, WorldState& state) const;
-  void see(const protocol::Vision& vision, const Vector3& offset, WorldState& state) const;
+  void see(const protocol::Vision& vision, const Vector3& offset, WorldState& state);
   void hear(const Report& report, WorldState& state) const;
   /// Counts only for an opponent that one has not seen oneself since shortly before, and less the older it
   /// is.
@@ -50,6 +53,9 @@ class PlayerTracker {
                                           const SelfState& self);
   static PlayerState* nearestOpponent(const Sighting& sighting, WorldState& state);
   static void merge(const Sighting& sighting, double time, PlayerState& player);
+  void missOpponents(WorldState& state);
+
+  std::array<int, kTeamSize + 1> absences_{};  // sightings in a row that an opponent should have been in
 };
 
 }  // namespace nonet::world

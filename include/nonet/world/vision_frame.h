@@ -30,6 +30,10 @@ struct ObservedPoint {
   explicit ObservedPoint(const protocol::Polar& polar);
 };
 
+/// Comfortably inside the view, with all that is within `room` (m) of it: there it must be seen, since
+/// nothing hides anything (server facts 2.7).
+bool clearlyInView(const Vector3& p_CP, double room);
+
 struct ObservedLandmark {
   protocol::Landmark id = protocol::Landmark::F1L;
   ObservedPoint at;

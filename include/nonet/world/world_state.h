@@ -84,6 +84,9 @@ constexpr bool isOwnSetPiece(Phase phase) {
   return phase == Phase::OwnKickOff || phase == Phase::OwnKickIn || phase == Phase::OwnCorner ||
          phase == Phase::OwnGoalKick || phase == Phase::OwnFreeKick || phase == Phase::OwnDirectFreeKick;
 }
+constexpr bool isKickOff(Phase phase) {
+  return phase == Phase::OwnKickOff || phase == Phase::OpponentKickOff;
+}
 constexpr bool isOpponentSetPiece(Phase phase) {
   return phase == Phase::OpponentKickOff || phase == Phase::OpponentKickIn ||
          phase == Phase::OpponentCorner || phase == Phase::OpponentGoalKick ||

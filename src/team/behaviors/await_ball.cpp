@@ -5,16 +5,10 @@
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 #include "nonet/team/navigation.h"
-#include "nonet/world/ball_law.h"
 
 namespace nonet::team {
 
 namespace {
-
-// s until the ball is slow enough to be kicked.
-double timeToSlow(double speed, double slow) {
-  return std::log(speed / slow) / world::kRollDecay;
-}
 
 // Out of the ball's way: beside it, on the side on which the robot is.
 Vector2 besideTheWay(const Situation& s, const Vector2& place, const Vector2& rest) {
@@ -36,7 +30,7 @@ std::optional<Action> awaitBall(const Situation& s) {
   const BallHandlingParameters& p = s.parameters.ball;
   const double speed = s.world.ball.v_FB.head<2>().norm();
   if (!s.play || s.play->wait || s.play->use == KickUse::Never || speed < p.kickRolling) return std::nullopt;
-  const double time = timeToSlow(speed, p.kickRolling);
+  const double time = s.forecast.free().slowAfter(p.kickRolling);
   const Vector2 rest = s.forecast.at(time);
   if (!s.world.field.holds(rest) || opponentsTime(s, rest) < time + p.awaitMargin) return std::nullopt;
   const double direction = directionOf(s.play->p_FTarget - rest);

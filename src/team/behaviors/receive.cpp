@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "nonet/team/behaviors.h"
 #include "nonet/world/ball_law.h"
@@ -15,23 +14,15 @@ struct Meeting {
   double time = 0.0;                // s until the ball is there
 };
 
-// Seconds until a rolling ball has gone so far; infinite if it never does.
-double timeToRoll(double distance, double speed) {
-  const double share = world::kRollDecay * distance / speed;
-  if (share >= 1.0) return std::numeric_limits<double>::infinity();
-  return -std::log(1.0 - share) / world::kRollDecay;
-}
-
 // The place on the ball's way that is nearest to the robot, if it can be there in time, or the first one
-// farther on; nothing for a ball that rests before or cannot be had.
-std::optional<Meeting> meetingOf(const Vector2& ball, const Vector2& velocity, const ReceiveParameters& p) {
-  const double speed = velocity.norm();
-  const Vector2 way = velocity / speed;
+// farther on; nothing for a ball that rests before or cannot be had. Robot frame, as is where the ball is
+// now.
+std::optional<Meeting> meetingOf(const Vector2& ball, const Vector2& way, const world::FreeBall& free,
+                                 const ReceiveParameters& p, double landing) {
   const double nearest = -ball.dot(way);
   if (nearest <= 0.0) return std::nullopt;
-  for (double time = timeToRoll(nearest, speed); time < p.within; time += p.step) {
-    const double rolled = speed / world::kRollDecay * (1.0 - std::exp(-world::kRollDecay * time));
-    const Vector2 place = ball + rolled * way;
+  for (double time = std::max(landing, free.goneAfter(nearest)); time < p.within; time += p.step) {
+    const Vector2 place = ball + (free.at(time) - free.at(0.0)).norm() * way;
     if (place.norm() < p.reach || place.norm() / p.pace + p.reaction < time) return Meeting{place, time};
   }
   return std::nullopt;
@@ -46,7 +37,10 @@ std::optional<Action> receive(const Situation& s) {
   const Vector2& ball = s.play->ball;
   const double comes = -velocity.dot(ball) / std::max(ball.norm(), 1e-6);
   if (comes < p.speed) return std::nullopt;
-  const std::optional<Meeting> meeting = meetingOf(ball, velocity, p);
+  // Over the head nobody stops it.
+  const double landing = world::landingTime({s.world.ball.p_FB, s.world.ball.v_FB});
+  const std::optional<Meeting> meeting =
+      meetingOf(ball, velocity.normalized(), s.forecast.free(), p, landing);
   if (!meeting) return std::nullopt;
   // Facing the ball, whose line is known better than its distance.
   const double heading = std::atan2(-velocity.y(), -velocity.x());

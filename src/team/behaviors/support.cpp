@@ -18,10 +18,10 @@ bool mayEnterOwnArea(const Situation& s) {
 
 }  // namespace
 
-motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace) {
+motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace, std::optional<double> ballRoom) {
   Caution caution;
   caution.robots = s.parameters.avoidDistance;
-  caution.ball = s.parameters.avoidDistance;
+  caution.ball = ballRoom.value_or(s.parameters.avoidDistance);
   caution.onBall = s.goalieClaims ? 1 : s.onBall;
   caution.onBallRoom = s.parameters.onBallRoom;
   const Vector2 place = mayEnterOwnArea(s) ? p_FPlace
