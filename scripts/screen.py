@@ -12,8 +12,9 @@ A line of CHANGES is a name and the parameters of side A that make the change; "
   backsUp  team.formation.firstBackFromGoal=5m team.formation.secondBackFromGoal=8m
 
 Thirty changes cost as many games as one: every game tells of all of them. The effects, in goals (for minus against)
-per ten minutes, are those of least squares with a constant for each opponent; beside them the standard error. Of thirty
-changes without any effect one or two show two standard errors, so what is found here is then played alone, by
+per ten minutes, are those of least squares with a constant for each opponent; beside them the standard error. A second
+table tells what else each change does: goals against, shots on target, passes, possession, falls, charging fouls. Of
+thirty changes without any effect one or two show two standard errors, so what is found here is then played alone, by
 `nonet series --sprt`. No two changes may set the same parameter. A screening that was stopped goes on with the same
 command. Games are played on the quick stepper unless --exact is given."""
 import argparse
@@ -26,6 +27,7 @@ import pathlib
 import random
 import subprocess
 import sys
+import tempfile
 import threading
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -157,17 +159,61 @@ def read_records(path):
     return records
 
 
-def table(records, names):
+MEASURES = {  # of side A in one game: statistics of both sides, own ones, goals against
+    "against": lambda own, against: against,
+    "on target": lambda own, against: own["shots_on_target"],
+    "passes": lambda own, against: own["passes_completed"],
+    "falls": lambda own, against: own["falls"],
+    "charging": lambda own, against: own["fouls"].get("charging", 0),
+}
+
+
+def measured(folder):
+    """Means of a pair's games, in ten minutes but for possession; None if they are not there."""
+    try:
+        games = [json.loads(line) for line in (folder / "matches.jsonl").read_text().splitlines()]
+    except (OSError, json.JSONDecodeError):
+        return None
+    sums = dict.fromkeys([*MEASURES, "possession"], 0.0)
+    for game in games:
+        own = game["statistics"]["teams"][0 if game["a"] == "left" else 1]
+        for name, measure in MEASURES.items():
+            sums[name] += 600 / game["game_time_s"] * measure(own, game["score_b"])
+        sums["possession"] += own["possession_percent"]
+    return {name: value / len(games) for name, value in sums.items()} if games else None
+
+
+def also_table(records, names, out):
+    """What else the changes do, in the order of `names`: effects, and in brackets in standard errors."""
+    pairs = [(r, measured(out / "pairs" / str(r["pair"]))) for r in records]
+    pairs = [(r, values) for r, values in pairs if values]
+    opponents = sorted({r["against"] for r, _ in pairs})
+    if len(pairs) <= len(opponents) + len(names):
+        return ""
+    columns = [*MEASURES, "possession"]
+    found = {c: {name: (effect, effect / max(error, 1e-9)) for name, effect, error in
+                 effects([(r["against"], set(r["changes"]), values[c]) for r, values in pairs], names, opponents)}
+             for c in columns}
+    lines = ["", f"{len(pairs)} pairs: what else they change in ten minutes (possession: %), in brackets in standard errors",
+             " " * 16 + "".join(f"{c:>15}" for c in columns),
+             f"{'mean':16}" + "".join(f"{sum(v[c] for _, v in pairs) / len(pairs):8.2f}       " for c in columns)]
+    for name in names:
+        lines.append(f"{name:16}" + "".join(f"{found[c][name][0]:+8.2f} ({found[c][name][1]:+4.1f})" for c in columns))
+    return "\n".join(line.rstrip() for line in lines)
+
+
+def table(records, names, out):
     # A pair is what was drawn: its two games share seed and changes.
     games = [(r["against"], set(r["changes"]), 10 / r["minutes"] * sum(a - b for a, b in r["goals"]) / len(r["goals"]))
              for r in records]
     opponents = sorted({g[0] for g in games})
     found = effects(games, names, opponents)
     lines = [f"{len(games)} pairs of games; goals per ten minutes that each change adds, standard error, their ratio"]
-    for name, effect, error in sorted(found, key=lambda e: -e[1] / max(e[2], 1e-9)):
+    found.sort(key=lambda e: -e[1] / max(e[2], 1e-9))
+    for name, effect, error in found:
         made = sum(name in g[1] for g in games)
         lines.append(f"{name:16} {effect:+6.2f} {error:5.2f} {effect / max(error, 1e-9):+5.1f}   in {made} pairs")
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n" + also_table(records, [name for name, _, _ in found], out)
 
 
 def self_test():
@@ -193,6 +239,14 @@ def self_test():
         except ArithmeticError:
             continue
         raise AssertionError("games that tell nothing were not refused")
+    game = {"a": "right", "score_b": 1, "game_time_s": 300, "statistics": {"teams": [
+        None, {"shots_on_target": 3, "passes_completed": 2, "falls": 4, "fouls": {}, "possession_percent": 60}]}}
+    with tempfile.TemporaryDirectory() as folder:
+        assert measured(pathlib.Path(folder)) is None
+        (pathlib.Path(folder) / "matches.jsonl").write_text(json.dumps(game) + "\n")
+        values = measured(pathlib.Path(folder))
+    expected = {"against": 2, "on target": 6, "passes": 4, "falls": 8, "charging": 0, "possession": 60}
+    assert values == expected, values
     print("screen: known effects found")
 
 
@@ -239,7 +293,7 @@ def main():
         sys.exit(f"{settings.out}: no screening there; name a file with changes")
     try:
         print(table(read_records(settings.out / "pairs.jsonl"),
-                    list(json.loads((settings.out / "plan.json").read_text())["changes"])))
+                    list(json.loads((settings.out / "plan.json").read_text())["changes"]), settings.out))
     except ArithmeticError as trouble:
         sys.exit(f"{trouble}; play more pairs")
 

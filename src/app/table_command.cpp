@@ -97,8 +97,8 @@ void addTableCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingDirectory);
   command->footer(
       "Examples:\n"
-      "  nonet table params/tables/formations.toml\n"
       "  nonet table params/tables/walks.toml --pairs 2 --minutes 2 --out logs/quick-walks\n"
+      "  nonet table params/tables/formations.toml     whole games: more than a day on two cores\n"
       "The file:\n"
       "  against = \"full\"          without it everybody plays everybody\n"
       "  pairs = 50\n"

@@ -18,7 +18,8 @@ class DribbleTask final : public Task {
  public:
   std::string_view name() const override { return "dribble"; }
   std::string_view description() const override {
-    return "the ball kept at the feet along a straight line and through a slalom: fast, without a loss";
+    return "the ball kept at the feet along a straight line and through a slalom: fast, without a loss, a "
+           "fall or a self-collision";
   }
   std::vector<std::string> searchedKeys() const override { return {"team.dribble."}; }
   void prepare(agent::AgentParameters& parameters) const override { parameters.team.dribble.steer = true; }

@@ -17,7 +17,8 @@ class RunTask final : public Task {
   std::string_view name() const override { return "run"; }
   std::string_view description() const override {
     return "runs straight ahead, out of a stand or a walk, among light pushes, with the stop after them, and "
-           "after a target that leaps aside: their mean speed, 0.4 to 1 m/s less for a fall";
+           "after a target that leaps aside: their mean speed, 0.4 to 1 m/s less for a fall, 0.4 for each "
+           "second of a late stop, and less for near falls";
   }
   std::vector<std::string> searchedKeys() const override { return {"motion.run.", "motion.sprint."}; }
 

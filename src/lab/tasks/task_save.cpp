@@ -16,7 +16,8 @@ class SaveTask final : public Task {
  public:
   std::string_view name() const override { return "save"; }
   std::string_view description() const override {
-    return "the goalie's place and the moment of its dive: share of shots saved, rolling and flying";
+    return "the goalie's place and the moment of its dive: share of shots saved, rolling and flying, "
+           "less for an own goal and for who stays down";
   }
   std::vector<std::string> searchedKeys() const override {
     return {"team.goalie.outOfGoal",    "team.goalie.outShare",     "team.goalie.diveTime",
