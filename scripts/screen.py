@@ -159,7 +159,7 @@ def read_records(path):
     return records
 
 
-MEASURES = {  # of side A in one game: statistics of both sides, own ones, goals against
+MEASURES = {  # of side A in one game, from its statistics and the goals against it
     "against": lambda own, against: against,
     "on target": lambda own, against: own["shots_on_target"],
     "passes": lambda own, against: own["passes_completed"],

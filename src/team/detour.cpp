@@ -18,8 +18,8 @@ constexpr std::size_t kMostDiscs = 32;
 constexpr int kDepth = 3;        // corners of corners
 constexpr double kFree = 1e-3;   // m, start and end are so far outside of all discs
 constexpr double kNarrow = 0.7;  // share of the radii between two that stand close together
-// That a way through a disc counts longer: in m, and for each metre of a large one's radius, around which it
-// is far.
+// A way through a disc counts longer by so many m, or by so many of its radii if that is more: around a large
+// one it is far.
 constexpr double kBlocked = 3.0;
 constexpr double kBlockedRadii = 4.0;
 // Where the arc is longer, the corner of its two tangents lies far off: then two corners.

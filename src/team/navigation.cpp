@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kPosts = 4;
 
 struct Obstacles {
-  std::array<Disc, 2 * world::kTeamSize + 1 + kPosts> items{};
+  std::array<Disc, 2 * world::kTeamSize + 2 + kPosts> items{};
   std::size_t count = 0;
   void add(const Vector2& p_F, double room) { items[count++] = {p_F, room}; }
   std::span<const Disc> all() const { return {items.data(), count}; }
@@ -62,8 +62,9 @@ Vector2 outsideOfRooms(Vector2 place, const Vector2& start, std::span<const Disc
 }
 
 Detour wayTo(const world::WorldState& world, const NavigationParameters& parameters, const Vector2& p_FTarget,
-             Obstacles obstacles) {
+             Obstacles obstacles, double fromBall) {
   addPosts(obstacles, world.field, parameters.bodyRoom);
+  if (fromBall > 0.0 && world.ball.known) obstacles.add(world.ball.p_FB.head<2>(), fromBall);
   const Facing facing{world.self.X_FR.rotation, parameters.turnCost};
   return detour(world.self.X_FR.translation, p_FTarget, obstacles.all(), facing);
 }
@@ -98,7 +99,7 @@ motion::MotionRequest walkTo(const world::WorldState& world, const NavigationPar
     if (std::abs(last.target.rotation) < parameters.facing) return motion::Stand{};
     return last;
   }
-  const Detour way = wayTo(world, parameters, X_FTarget.translation, obstacles);
+  const Detour way = wayTo(world, parameters, X_FTarget.translation, obstacles, caution.wayToBall);
   const double direction = directionOf(way.next - start);
   if (way.straight) {
     const double heading = distance > parameters.headingDistance ? direction : X_FTarget.rotation;

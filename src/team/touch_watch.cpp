@@ -1,22 +1,24 @@
 #include "nonet/team/touch_watch.h"
 
-#include <algorithm>
-
 #include "nonet/team/pass_mode.h"
+#include "nonet/world/set_piece_spot.h"
 
 namespace nonet::team {
 
 bool atMostTwoPlay(const world::WorldState& world) {
-  const auto known = [](const auto& players) {
-    return std::count_if(players.begin(), players.end(), [](const world::PlayerState& p) { return p.known; });
-  };
-  return known(world.teammates) + known(world.opponents) <= 2;
+  int opponents = 0;
+  for (int unum = 1; unum <= world::kTeamSize; ++unum) {
+    const auto index = static_cast<std::size_t>(unum);
+    if (unum != world.game.unum && world.teammates[index].known) return false;
+    if (world.opponents[index].known) ++opponents;
+  }
+  return opponents <= 1;
 }
 
 void TouchWatch::update(const world::WorldState& world) {
   const world::Phase phase = world.game.phase;
-  if (phase == world::Phase::OwnGoalKick && world.ball.v_FB.head<2>().norm() < parameters_.resting)
-    goalKicker_ = nearestAtBall(world, true);
+  if (phase == world::Phase::OwnGoalKick && phase != phase_) goalKicker_ = {};
+  if (awaitsGoalKick(world)) goalKicker_ = nearestAtBall(world, true);
   if (phase != phase_) {
     const bool playOn = phase == world::Phase::PlayOn;
     const bool free = phase_ == world::Phase::OwnKickOff && atMostTwoPlay(world);
@@ -30,6 +32,15 @@ void TouchWatch::update(const world::WorldState& world) {
   };
   if (taker_.unum != 0 && passed(taker_, parameters_.longest, true)) taker_ = {};
   if (passer_.unum != 0 && passed(passer_, kPassModeNoGoal, false)) passer_ = {};
+}
+
+// The own goal kick has not been taken: the ball lies where the referee has put it.
+bool TouchWatch::awaitsGoalKick(const world::WorldState& world) const {
+  constexpr double kAtSpot = 0.3;  // m
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  const auto spot = world::setPieceSpot(world.game.phase, ball, world.field);
+  return world.game.phase == world::Phase::OwnGoalKick && (*spot - ball).norm() < kAtSpot &&
+         world.ball.v_FB.head<2>().norm() < parameters_.resting;
 }
 
 // Play goes on with the touch, but at the goal kick not before the ball has left the area.

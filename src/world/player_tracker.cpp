@@ -160,6 +160,7 @@ void PlayerTracker::missOpponents(WorldState& state) {
     const bool missed =
         player.known && player.lastSighted < state.time && clearlyInView(p_CP, kRoom + 2.0 * player.sigma);
     absences_[i] = missed ? absences_[i] + 1 : 0;
+    if (missed) missed_[i] = state.time;
     if (absences_[i] >= kAbsencesToForget) player.known = false;
   }
 }
@@ -210,6 +211,8 @@ void PlayerTracker::hear(const OpponentReport& report, WorldState& state) const 
   if (report.unum < 1 || report.unum > kTeamSize) return;
   PlayerState& player = state.opponents[static_cast<std::size_t>(report.unum)];
   player.lastTold = std::max(player.lastTold, report.seenAt);
+  // Told by somebody who saw it before it was carried away.
+  if (!player.known && report.seenAt < missed_[static_cast<std::size_t>(report.unum)]) return;
   const bool older = report.seenAt < player.lastSighted + kOwnSight || report.seenAt < player.lastSeen;
   if (player.known && older) return;
   const double sigma = report.sigma + kWalkSpeed * std::max(0.0, state.time - report.seenAt);

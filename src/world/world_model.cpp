@@ -156,16 +156,18 @@ void WorldModel::Stages::believe(const protocol::SayMessage& message, double tim
 // A ball that has left the field does not matter any more, but where the referee will put it.
 void WorldModel::Stages::followBall(const protocol::Percept& percept) {
   const GameState& now = state.game;
+  bool putNow = false;
   if (now.phaseSince != spotSince) {
     spotSince = now.phaseSince;
     spot.reset();
     if (state.ball.known) spot = setPieceSpot(now.phase, state.ball.p_FB.head<2>(), state.field);
-    // It has lain in the goal until now, and does not roll on.
-    if (isKickOff(now.phase)) ball.put(Vector2::Zero(), state.time);
+    // It has lain in the goal until now, where this message still shows it (server facts 1.2).
+    putNow = isKickOff(now.phase);
+    if (putNow) ball.put(Vector2::Zero(), state.time);
   }
   ball.predict(state.body.cycleTime);
   const bool rollsOn = spot && state.time - now.phaseSince < kBallRollsOn;
-  if (percept.vision && !rollsOn)
+  if (percept.vision && !rollsOn && !putNow)
     ball.see(*percept.vision, state.self, localization.belief().offset, state.time);
   listen(percept);
   if (rollsOn) ball.put(*spot, state.time);

@@ -71,6 +71,16 @@ TEST(Receive, ABallInTheAirIsMetWhereItComesDown) {
   EXPECT_LT(scene.speed().translation.x(), 0.9 * scene.parameters.receive.gain * ball.p_FB.x());
 }
 
+// A low drive hits the legs.
+TEST(Receive, StandsInTheWayOfALowFlight) {
+  Coming scene;
+  scene.putBall({2.0, 0.0}, {-8.0, 0.0});
+  scene.world.ball.v_FB.z() = 2.5;  // rises to 0.36 m
+  const std::optional<Action> action = scene.act();
+  ASSERT_TRUE(action);
+  EXPECT_TRUE(std::holds_alternative<motion::Stand>(action->motion));
+}
+
 TEST(Receive, OnlyABallThatComes) {
   Coming scene;
   scene.putBall({2.0, 0.0}, {3.0, 0.0});  // rolls away

@@ -66,7 +66,6 @@ TEST(SituationTracker, TellsWhatWasWeighedOnlyWhenAsked) {
   }
 }
 
-// Roles are given by the places that are taken: else the one who stands ready leaves and another must come.
 // A penalty shoot-out: nobody to wait for, and the goal to go to.
 TEST(Situation, WhoIsAloneAgainstAGoalieTakesTheKickOffTowardsTheGoal) {
   Scene scene;
@@ -85,6 +84,7 @@ TEST(Situation, WhoIsAloneAgainstAGoalieTakesTheKickOffTowardsTheGoal) {
   EXPECT_TRUE(withMate.play->wait) << "for the receiver";
 }
 
+// Roles are given by the places that are taken: else the one who stands ready leaves and another must come.
 TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
   const std::pair<world::Phase, Vector2> kPieces[] = {{world::Phase::OwnKickOff, {0.0, 0.0}},
                                                       {world::Phase::OwnKickIn, {3.0, 10.0}},

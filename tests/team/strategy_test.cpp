@@ -148,6 +148,13 @@ TEST(Strategy, WalksAroundTheCircleOfTheOpponentsSetPiece) {
     EXPECT_GT((next - start).norm(), 1.0);
     EXPECT_GT(way.distanceTo(ball), 2.1) << aside;
   }
+  // Somebody stands on the place: still to that side of the ball.
+  const Vector2 place =
+      ball + scene.parameters.clearOfOpponentKick * (Vector2(-15.0, 0.0) - ball).normalized();
+  Scene::put(scene.world.opponents[3], Pose2(place, 0.0));
+  scene.stand(Pose2(ball + Vector2(0.0, 4.0), 0.0));
+  const Action action = *opponentSetPiece(scene.situation(Role::OnBall));
+  EXPECT_LT(goalOf(scene, action).x(), ball.x() - 1.0);
 }
 
 // Whoever is in their penalty area then is moved by the referee (server facts 4.7).

@@ -32,7 +32,7 @@ class Scene : public testing::Test {
 
 TEST_F(Scene, TheTakerOfAnOwnSetPieceIsBannedUntilAnotherTouches) {
   for (const world::Phase phase : {world::Phase::OwnKickOff, world::Phase::OwnKickIn, world::Phase::OwnCorner,
-                                   world::Phase::OwnGoalKick, world::Phase::OwnFreeKick}) {
+                                   world::Phase::OwnFreeKick, world::Phase::OwnDirectFreeKick}) {
     ball(0.0, 0.0);
     play(phase, 2.0);
     EXPECT_EQ(watch.banned(), 0);
@@ -71,6 +71,11 @@ TEST_F(Scene, WhoTookTheGoalKickIsBannedNotWhoIsNearWhenTheBallLeavesTheArea) {
   world.ball.v_FB = Vector3(5.0, 2.0, 0.0);
   ball(-13.0, 0.4);
   play(world::Phase::OwnGoalKick, 0.2);
+  // A weak one that comes to rest in the area, beside number 6, which then takes it out.
+  world.ball.v_FB.setZero();
+  place(world.teammates[6], -12.9, 0.6);
+  play(world::Phase::OwnGoalKick, 1.0);
+  place(world.teammates[6], -10.0, -3.0);
   place(world.teammates[9], -12.5, 1.0);
   ball(-13.1, 0.8);
   play(world::Phase::PlayOn, 0.1);

@@ -157,6 +157,12 @@ class Scene {
     return side_ == TeamSide::Right ? Vector3(-p_F.x(), -p_F.y(), p_F.z()) : p_F;
   }
 
+  bool seesNext() const { return count_ % 3 == 0; }
+  protocol::Percept nextWithoutPlayers() {
+    protocol::Percept percept = next();
+    if (percept.vision) percept.vision->players.clear();
+    return percept;
+  }
   const protocol::Percept& next() {
     percept_.clear();
     percept_.time = 10.0 + 0.02 * count_;
@@ -172,7 +178,7 @@ class Scene {
     for (const auto sensor : {protocol::ForceSensor::LFoot, protocol::ForceSensor::RFoot}) {
       percept_.forces[static_cast<std::size_t>(sensor)] = protocol::FootForce{{0, 0, -0.01}, {0, 0, 22.6}};
     }
-    if (count_ % 3 == 0) {
+    if (seesNext()) {
       protocol::Vision& vision = percept_.beginVision();
       protocol::Vision seen = eyes_.see(X_WC_);
       vision.landmarks.assign(seen.landmarks.begin(), seen.landmarks.end());
@@ -474,12 +480,15 @@ TEST(WorldModel, MissesAnOpponentThatWasCarriedAway) {
     if (!seen) world.update(hearing(scene.next(), tellingOfNumberFour()));
     ASSERT_TRUE(world.state().opponents[4].known);
     for (int i = 0; i < 15; ++i) {
-      protocol::Percept percept = scene.next();
-      if (percept.vision) percept.vision->players.clear();
-      world.update(percept);
+      world.update(scene.nextWithoutPlayers());
     }
     EXPECT_EQ(world.state().opponents[4].known, !seen) << heading;
-    EXPECT_TRUE(world.state().teammates[7].known) << "a mate tells where it is";
+    // A mate's sighting from before does not bring it back.
+    protocol::SayMessage old = tellingOfNumberFour();
+    old.sightings[0].age = 0.3;
+    world.update(hearing(scene.nextWithoutPlayers(), old));
+    EXPECT_EQ(world.state().opponents[4].known, !seen) << heading;
+    EXPECT_TRUE(world.state().teammates[7].known) << "a mate is not missed";
   }
 }
 
@@ -495,6 +504,11 @@ TEST(WorldModel, AtAKickOffTheBallLiesInTheMiddle) {
   };
   for (int i = 0; i < 150; ++i) update(PlayMode::GoalRight, true);
   ASSERT_LT((update(PlayMode::GoalRight, false) - Vector2(2.0, 1.0)).norm(), 0.1);
+  // The first message still shows it where it was.
+  int first = 0;
+  while (!scene.seesNext()) ++first, update(PlayMode::GoalRight, false);
+  ASSERT_LT(first, 4);
+  EXPECT_LT(update(PlayMode::KickOffLeft, true).norm(), 0.05);
   for (int i = 0; i < 3; ++i) EXPECT_LT(update(PlayMode::KickOffLeft, false).norm(), 0.05);
   // What is seen counts at once: from the first touch on it rolls.
   for (int i = 0; i < 6; ++i) update(PlayMode::KickOffLeft, true);

@@ -12,6 +12,7 @@ namespace nonet::team {
 struct Caution {
   double robots = 0.7;      // m from robot to robot
   double ball = 0.0;        // m; 0: the ball may be touched
+  double wayToBall = 0.0;   // m that ways keep from the ball, if more; places may lie nearer
   int onBall = 0;           // number of the team mate on the ball, which gets more room; 0: none
   double onBallRoom = 1.0;  // m from it
   bool duel = false;        // on the way to the ball: robots at the ball are no reason to stay away

@@ -8,8 +8,8 @@
 
 namespace nonet::team {
 
-/// No more than one player beside oneself is known, as in a penalty shoot-out: who takes the kick-off may go
-/// on with the ball (server facts 4.3).
+/// Nobody but one opponent is known, as in a penalty shoot-out: who takes the kick-off may go on with the
+/// ball (server facts 4.3).
 bool atMostTwoPlay(const world::WorldState& world);
 
 class TouchWatch {
@@ -28,6 +28,7 @@ class TouchWatch {
     double at = world::kNever;  // server time, s
   };
 
+  bool awaitsGoalKick(const world::WorldState& world) const;
   Kicker takerOf(world::Phase piece, const world::WorldState& world) const;
   Kicker nearestAtBall(const world::WorldState& world, bool opponentsToo) const;
   bool touchedByAnother(const world::WorldState& world, const Kicker& kicker, bool opponentsToo) const;

@@ -55,7 +55,8 @@ class PlayerTracker {
   static void merge(const Sighting& sighting, double time, PlayerState& player);
   void missOpponents(WorldState& state);
 
-  std::array<int, kTeamSize + 1> absences_{};  // sightings in a row that an opponent should have been in
+  std::array<int, kTeamSize + 1> absences_{};   // sightings in a row that an opponent should have been in
+  std::array<double, kTeamSize + 1> missed_{};  // server time of the last of those, s
 };
 
 }  // namespace nonet::world

@@ -35,7 +35,7 @@ std::optional<Action> opponentSetPiece(const Situation& s) {
   if (s.phase() == world::Phase::OpponentGoalKick) place = outOfTheirArea(s, place);
   if (s.phase() == world::Phase::OpponentKickOff)
     place.x() = std::min(place.x(), -s.parameters.setPlay.kickOffLine);
-  // Places may lie on the circle itself, ways only outside of it.
+  // Who stands on the circle itself may walk along it.
   constexpr double kOnCircle = 0.1;  // m
   return Action(takePlace(s, place, clear - kOnCircle),
                 blocks ? "block the way to the goal" : "place of the role");

@@ -14,14 +14,25 @@ struct Meeting {
   double time = 0.0;                // s until the ball is there
 };
 
+// When the ball is low enough to be stopped, not before `time`: what flies over the head lands first. s.
+double lowAfter(const Situation& s, double time) {
+  constexpr double kHead = 0.5;  // m
+  world::BallMotion ball{s.world.ball.p_FB, s.world.ball.v_FB};
+  const double landing = world::landingTime(ball);
+  if (time >= landing) return time;
+  world::moveBall(ball, time);
+  return ball.p_FB.z() > kHead ? landing : time;
+}
+
 // The place on the ball's way that is nearest to the robot, if it can be there in time, or the first one
 // farther on; nothing for a ball that rests before or cannot be had. Robot frame, as is where the ball is
 // now.
-std::optional<Meeting> meetingOf(const Vector2& ball, const Vector2& way, const world::FreeBall& free,
-                                 const ReceiveParameters& p, double landing) {
+std::optional<Meeting> meetingOf(const Vector2& ball, const Vector2& way, const Situation& s) {
+  const ReceiveParameters& p = s.parameters.receive;
+  const world::FreeBall& free = s.forecast.free();
   const double nearest = -ball.dot(way);
   if (nearest <= 0.0) return std::nullopt;
-  for (double time = std::max(landing, free.goneAfter(nearest)); time < p.within; time += p.step) {
+  for (double time = lowAfter(s, free.goneAfter(nearest)); time < p.within; time += p.step) {
     const Vector2 place = ball + (free.at(time) - free.at(0.0)).norm() * way;
     if (place.norm() < p.reach || place.norm() / p.pace + p.reaction < time) return Meeting{place, time};
   }
@@ -37,10 +48,7 @@ std::optional<Action> receive(const Situation& s) {
   const Vector2& ball = s.play->ball;
   const double comes = -velocity.dot(ball) / std::max(ball.norm(), 1e-6);
   if (comes < p.speed) return std::nullopt;
-  // Over the head nobody stops it.
-  const double landing = world::landingTime({s.world.ball.p_FB, s.world.ball.v_FB});
-  const std::optional<Meeting> meeting =
-      meetingOf(ball, velocity.normalized(), s.forecast.free(), p, landing);
+  const std::optional<Meeting> meeting = meetingOf(ball, velocity.normalized(), s);
   if (!meeting) return std::nullopt;
   // Facing the ball, whose line is known better than its distance.
   const double heading = std::atan2(-velocity.y(), -velocity.x());

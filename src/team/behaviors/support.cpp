@@ -18,10 +18,11 @@ bool mayEnterOwnArea(const Situation& s) {
 
 }  // namespace
 
-motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace, std::optional<double> ballRoom) {
+motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace, double wayToBall) {
   Caution caution;
   caution.robots = s.parameters.avoidDistance;
-  caution.ball = ballRoom.value_or(s.parameters.avoidDistance);
+  caution.ball = s.parameters.avoidDistance;
+  caution.wayToBall = wayToBall;
   caution.onBall = s.goalieClaims ? 1 : s.onBall;
   caution.onBallRoom = s.parameters.onBallRoom;
   const Vector2 place = mayEnterOwnArea(s) ? p_FPlace
