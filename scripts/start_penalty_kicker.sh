@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Starts the kicker of a penalty shoot-out: one agent, number 9, which takes kick-offs, in the background. scripts/kill.sh stops it.
+# Starts the kicker of a penalty shoot-out: one agent in the background, number 9, which takes kick-offs.
+# scripts/kill.sh stops it.
 #   scripts/start_penalty_kicker.sh HOST [PORT]
 #   scripts/start_penalty_kicker.sh HOST [-p PORT] [-t TEAM] [-mh MONITORHOST] [-- OPTIONS OF nonet play]
 # Environment: as scripts/start.sh.

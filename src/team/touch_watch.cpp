@@ -17,16 +17,16 @@ bool atMostTwoPlay(const world::WorldState& world) {
 
 void TouchWatch::update(const world::WorldState& world) {
   const world::Phase phase = world.game.phase;
-  if (phase == world::Phase::OwnGoalKick && phase != phase_) goalKicker_ = {};
-  if (awaitsGoalKick(world)) goalKicker_ = nearestAtBall(world, true);
   if (phase != phase_) {
     const bool playOn = phase == world::Phase::PlayOn;
     const bool free = phase_ == world::Phase::OwnKickOff && atMostTwoPlay(world);
     const bool wasOwn = world::isOwnSetPiece(phase_) && !world.game.ballDropped && !free;
     taker_ = playOn && wasOwn ? takerOf(phase_, world) : Kicker{};
     passer_ = playOn && phase_ == world::Phase::OwnPass ? nearestAtBall(world, false) : Kicker{};
+    goalKicker_ = {};
     phase_ = phase;
   }
+  if (awaitsGoalKick(world)) goalKicker_ = nearestAtBall(world, true);
   const auto passed = [&](const Kicker& kicker, double longest, bool opponentsToo) {
     return world.time - kicker.at > longest || touchedByAnother(world, kicker, opponentsToo);
   };
@@ -37,10 +37,10 @@ void TouchWatch::update(const world::WorldState& world) {
 // The own goal kick has not been taken: the ball lies where the referee has put it.
 bool TouchWatch::awaitsGoalKick(const world::WorldState& world) const {
   constexpr double kAtSpot = 0.3;  // m
+  if (world.game.phase != world::Phase::OwnGoalKick) return false;
   const Vector2 ball = world.ball.p_FB.head<2>();
   const auto spot = world::setPieceSpot(world.game.phase, ball, world.field);
-  return world.game.phase == world::Phase::OwnGoalKick && (*spot - ball).norm() < kAtSpot &&
-         world.ball.v_FB.head<2>().norm() < parameters_.resting;
+  return (*spot - ball).norm() < kAtSpot && world.ball.v_FB.head<2>().norm() < parameters_.resting;
 }
 
 // Play goes on with the touch, but at the goal kick not before the ball has left the area.

@@ -101,9 +101,7 @@ double FreeBall::goneAfter(double distance) const {
 }
 
 Vector2 restPlace(const BallMotion& ball) {
-  BallMotion motion = ball;
-  for (int i = 0; i < kMaximumSteps && isFlying(motion); ++i) stepBall(motion, kCycleTime);
-  return motion.p_FB.head<2>() + motion.v_FB.head<2>() / kRollDecay;
+  return FreeBall(ball).at(std::numeric_limits<double>::infinity());
 }
 
 std::optional<LineCrossing> crossingOfLine(const BallMotion& ball, double x) {
