@@ -3,11 +3,13 @@
 
   python3 scripts/screen.py CHANGES --out logs/screen --pairs 200
   python3 scripts/screen.py CHANGES --out logs/screen --against own wall ../before --share 0.3
+  python3 scripts/screen.py CHANGES --out logs/screen --scrums 8 --pairs 500 --type 2
   python3 scripts/screen.py --out logs/screen                                only the table of what is there
 
-A line of CHANGES is a name and the parameters of side A that make the change; "#" begins a comment:
+A line of CHANGES is a name and the parameters of side A that make the change; "#" begins a comment, "|" another way
+to make it, which is drawn in its place and stands in the table as closer:2:
 
-  closer   team.ball.behindBall=0.14m
+  closer   team.ball.behindBall=0.14m | team.ball.behindBall=0.21m
   charge   team.charging.speed=0.45
   backsUp  team.formation.firstBackFromGoal=5m team.formation.secondBackFromGoal=8m
 
@@ -15,8 +17,12 @@ Thirty changes cost as many games as one: every game tells of all of them. The e
 per ten minutes, are those of least squares with a constant for each opponent; beside them the standard error. A second
 table tells what else each change does: goals against, shots on target, passes, possession, falls, charging fouls. Of
 thirty changes without any effect one or two show two standard errors, so what is found here is then played alone, by
-`nonet series --sprt`. No two changes may set the same parameter. A screening that was stopped goes on with the same
-command. Games are played on the quick stepper unless --exact is given."""
+`nonet series --sprt`. No two lines may set the same parameter. A screening that was stopped goes on with the same
+command. Games are played on the quick stepper unless --exact is given.
+
+With --scrums a pair is so many scrums instead of two games (`nonet ball-report --skill scrum`): three robots a side
+around a contested ball, and what counts is how many metres it gains. That tells far more in the same time, of what
+is done near the ball and of nothing else. --against then names data folders, or own."""
 import argparse
 import concurrent.futures
 import hashlib
@@ -34,24 +40,26 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def read_changes(path):
-    """{name: [assignment, ...]}; ends the program at a line that cannot be used."""
+    """{name: [assignment, ...]}, with "name:1", "name:2" for two ways; ends the program at a line that cannot be used."""
     changes, owner = {}, {}
     try:
         text = pathlib.Path(path).read_text()
     except OSError as trouble:
         sys.exit(f"{path}: {trouble.strerror}")
     for number, line in enumerate(text.splitlines(), 1):
-        name, *assignments = line.split("#")[0].split() or [None]
+        name, *rest = line.split("#")[0].split(maxsplit=1) or [None]
         if name is None:
             continue
-        if not assignments or any("=" not in a for a in assignments):
-            sys.exit(f"{path}:{number}: a change is a name and key=value, one or more")
-        if name in changes:
+        ways = [way.split() for way in "".join(rest).split("|")]
+        if not all(ways) or any("=" not in a for way in ways for a in way) or ":" in name:
+            sys.exit(f"{path}:{number}: a change is a name without ':' and key=value, one or more; '|' between its ways")
+        if name in owner.values():
             sys.exit(f"{path}:{number}: '{name}' is there twice")
-        for key in (a.split("=")[0] for a in assignments):
+        for key in (a.split("=")[0] for way in ways for a in way):
             if owner.setdefault(key, name) != name:
-                sys.exit(f"{path}:{number}: '{owner[key]}' sets {key} too; no two changes may set the same parameter")
-        changes[name] = assignments
+                sys.exit(f"{path}:{number}: '{owner[key]}' sets {key} too; no two lines may set the same parameter")
+        for i, way in enumerate(ways, 1):
+            changes[f"{name}:{i}" if len(ways) > 1 else name] = way
     if not changes:
         sys.exit(f"{path}: no change in it")
     return changes
@@ -60,7 +68,11 @@ def read_changes(path):
 def drawn(changes, pair, share):
     """The changes of a pair: the same whoever asks, and whenever."""
     chance = random.Random(pair)
-    return [name for name in changes if chance.random() < share]
+    ways = {}
+    for name in changes:
+        ways.setdefault(name.split(":")[0], []).append(name)
+    return [names[0] if len(names) == 1 else chance.choice(names)
+            for names in ways.values() if chance.random() < share]
 
 
 def solve(matrix, columns):
@@ -107,17 +119,37 @@ def fingerprint(program):
         sys.exit(f"cannot read {trouble.filename}: name the program with --nonet, its data with NONET_DATA")
 
 
+def output_of(command):
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError((done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1])
+    return done.stdout
+
+
+def scrums(pair, made, opponent, changes, settings):
+    """Some scrums by `nonet ball-report`: their record."""
+    command = [settings.nonet, "ball-report", "--skill", "scrum", "--trials", str(settings.scrums), "--threads", "1",
+               "--type", str(settings.type), "--seed", str(pair), "--json"]
+    command += [] if settings.exact else ["--quick"]
+    command += [] if opponent == "own" else ["--opponent-data", opponent]
+    for assignment in (a for name in made for a in changes[name]):
+        command += ["--set", assignment]
+    report = json.loads(output_of(command))
+    return {"pair": pair, "against": opponent, "changes": made,
+            "scrum": {key: report[key]["mean"] for key in SCRUM_MEASURES.values()}}
+
+
 def play(pair, made, opponent, changes, settings):
     """One pair of games by `nonet series`: its record."""
+    if settings.scrums:
+        return scrums(pair, made, opponent, changes, settings)
     folder = settings.out / "pairs" / str(pair)
     command = [settings.nonet, "series", "own", opponent, "--pairs", "1", "--jobs", "1", "--seed", str(pair),
                "--minutes", str(settings.minutes), "--out", str(folder)]
     command += [] if settings.exact else ["--set", "QuickSolver=true"]
     assignments = [a for name in made for a in changes[name]]
     command += ["--a-set", *assignments] if assignments else []
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError((done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1])
+    output_of(command)
     lines = [json.loads(line) for line in (folder / "matches.jsonl").read_text().splitlines()]
     return {"pair": pair, "against": opponent, "changes": made, "minutes": settings.minutes,
             "goals": [[line["score_a"], line["score_b"]] for line in lines]}
@@ -159,6 +191,15 @@ def read_records(path):
     return records
 
 
+SCRUM_MEASURES = {  # column: key in the report; the first is what decides
+    "gained": "scrum_m",
+    "territory": "scrum_territory_m",
+    "falls": "scrum_falls",
+    "their falls": "scrum_opponent_falls",
+    "charging": "scrum_charges",
+    "theirs": "scrum_opponent_charges",
+}
+
 MEASURES = {  # of side A in one game, from its statistics and the goals against it
     "against": lambda own, against: against,
     "on target": lambda own, against: own["shots_on_target"],
@@ -183,18 +224,15 @@ def measured(folder):
     return {name: value / len(games) for name, value in sums.items()} if games else None
 
 
-def also_table(records, names, out):
+def also_table(pairs, names, columns, what):
     """What else the changes do, in the order of `names`: effects, and in brackets in standard errors."""
-    pairs = [(r, measured(out / "pairs" / str(r["pair"]))) for r in records]
-    pairs = [(r, values) for r, values in pairs if values]
     opponents = sorted({r["against"] for r, _ in pairs})
     if len(pairs) <= len(opponents) + len(names):
         return ""
-    columns = [*MEASURES, "possession"]
     found = {c: {name: (effect, effect / max(error, 1e-9)) for name, effect, error in
                  effects([(r["against"], set(r["changes"]), values[c]) for r, values in pairs], names, opponents)}
              for c in columns}
-    lines = ["", f"{len(pairs)} pairs: what else they change in ten minutes (possession: %), in brackets in standard errors",
+    lines = ["", f"{len(pairs)} pairs: what else they change{what}, in brackets in standard errors",
              " " * 16 + "".join(f"{c:>15}" for c in columns),
              f"{'mean':16}" + "".join(f"{sum(v[c] for _, v in pairs) / len(pairs):8.2f}       " for c in columns)]
     for name in names:
@@ -202,18 +240,34 @@ def also_table(records, names, out):
     return "\n".join(line.rstrip() for line in lines)
 
 
+def value_of(record):
+    """What decides: metres in a scrum, or goals in ten minutes."""
+    if "scrum" in record:
+        return record["scrum"][SCRUM_MEASURES["gained"]]
+    return 10 / record["minutes"] * sum(a - b for a, b in record["goals"]) / len(record["goals"])
+
+
 def table(records, names, out):
-    # A pair is what was drawn: its two games share seed and changes.
-    games = [(r["against"], set(r["changes"]), 10 / r["minutes"] * sum(a - b for a, b in r["goals"]) / len(r["goals"]))
-             for r in records]
+    # A pair is what was drawn: its games share seed and changes.
+    games = [(r["against"], set(r["changes"]), value_of(r)) for r in records]
     opponents = sorted({g[0] for g in games})
     found = effects(games, names, opponents)
-    lines = [f"{len(games)} pairs of games; goals per ten minutes that each change adds, standard error, their ratio"]
+    in_scrums = any("scrum" in r for r in records)
+    what = "draws of scrums; metres gained" if in_scrums else "pairs of games; goals per ten minutes"
+    lines = [f"{len(games)} {what} that each change adds, standard error, their ratio"]
     found.sort(key=lambda e: -e[1] / max(e[2], 1e-9))
     for name, effect, error in found:
         made = sum(name in g[1] for g in games)
         lines.append(f"{name:16} {effect:+6.2f} {error:5.2f} {effect / max(error, 1e-9):+5.1f}   in {made} pairs")
-    return "\n".join(lines) + "\n" + also_table(records, [name for name, _, _ in found], out)
+    names = [name for name, _, _ in found]
+    if in_scrums:
+        pairs = [(r, {column: r["scrum"][key] for column, key in SCRUM_MEASURES.items()}) for r in records]
+        also = also_table(pairs, names, list(SCRUM_MEASURES)[1:], " in a scrum, for each side")
+    else:
+        pairs = [(r, measured(out / "pairs" / str(r["pair"]))) for r in records]
+        also = also_table([(r, values) for r, values in pairs if values], names, [*MEASURES, "possession"],
+                          " in ten minutes (possession: %)")
+    return "\n".join(lines) + "\n" + also
 
 
 def self_test():
@@ -231,6 +285,10 @@ def self_test():
         assert 0.06 < error < 0.12, (name, error)
     assert max(map(abs, scores)) < 3.5, scores
     assert 0.4 < math.sqrt(sum(s * s for s in scores) / len(scores)) < 1.6, scores
+    ways = {"a:1": ["a=1"], "a:2": ["a=2"], "b": ["b=1"]}
+    both = [set(drawn(ways, pair, 0.6)) for pair in range(300)]
+    assert not any({"a:1", "a:2"} <= made for made in both)
+    assert all(60 < sum(name in made for made in both) < 120 for name in ("a:1", "a:2"))
     exact = [("a", {"x"} if i % 2 else set(), 2.0 + 3.0 * (i % 2)) for i in range(9)]
     assert abs(effects(exact, ["x"], ["a"])[0][1] - 3) < 1e-9
     for few in (games[:5], [("a", {"x"}, 1.0)] * 9):
@@ -255,6 +313,8 @@ def screen(settings):
     settings.fingerprint = fingerprint(settings.nonet)
     plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
             "exact": settings.exact, "fingerprint": settings.fingerprint}
+    if settings.scrums:
+        plan |= {"scrums": settings.scrums, "type": settings.type}
     settings.out.mkdir(parents=True, exist_ok=True)
     kept = settings.out / "plan.json"
     if kept.exists() and json.loads(kept.read_text()) != plan:
@@ -275,7 +335,9 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, help="folder; a screening that is there already goes on")
     parser.add_argument("--pairs", type=int, default=100, help="pairs of games (100)")
     parser.add_argument("--minutes", type=float, default=3, help="game time of one game (3)")
-    parser.add_argument("--against", nargs="+", default=["own", "wall"], help="sides B, in turn (own wall)")
+    parser.add_argument("--against", nargs="+", help="sides B, in turn (own wall; in scrums own)")
+    parser.add_argument("--scrums", type=int, default=0, help="so many scrums instead of a pair of games")
+    parser.add_argument("--type", type=int, default=2, help="of the robots in scrums (2)")
     parser.add_argument("--share", type=float, default=0.5, help="of the pairs in which a change is made (0.5)")
     parser.add_argument("--seed", type=int, default=1, help="of the first pair; each has the next one (1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="pairs at a time (one per core)")
@@ -287,6 +349,7 @@ def main():
         return self_test()
     if not settings.out:
         parser.error("needs --out")
+    settings.against = settings.against or (["own"] if settings.scrums else ["own", "wall"])
     if settings.changes:
         screen(settings)
     elif not (settings.out / "plan.json").exists():

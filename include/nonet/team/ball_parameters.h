@@ -24,7 +24,7 @@ struct BallTargetParameters {
   double barReach = 2.1;
   double barWidth = 0.45;
   double barCost = 0.8;
-  double facingCost = 0.05;
+  double facingCost = 0.07;
   double keep = 0.2;
   double touchLineMargin = 0.2;
   double rollsOn = 1.4;
@@ -201,24 +201,24 @@ struct ShotParameters {
 
 /// How the player on the ball goes behind it, dribbles and kicks (behaviors/).
 struct BallHandlingParameters {
-  double behindBall = 0.18;
+  double behindBall = 0.15;
   double standOff = 0.28;
   double circleRadius = 0.3;
   double circleOpen = 1.2;
   double circleLead = 0.08;
   double turnAlong = 4.0;
-  double turnLast = 0.25;
-  double turnedRoom = 0.1;
+  double turnLast = 0.2;
+  double turnedRoom = 0.05;
   double turnedAngle = 1.6;
   double circleRoom = 0.3;
   double circleEither = 0.2;
   double dribbleThrough = 0.6;
   double alignedAngle = 0.45;
-  double alignedAside = 0.10;
+  double alignedAside = 0.15;
   bool kick = true;
   double kickApproach = 1.2;
   double kickOpponentDistance = 1.8;
-  double kickRoom = 0.4;
+  double kickRoom = 0.6;
   double kickRoomPace = 0.7;
   double kickLane = 0.3;
   double handleDistance = 0.9;

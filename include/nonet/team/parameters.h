@@ -22,7 +22,7 @@ struct PaceParameters {
   double risingTime = 2.0;
   double wayAround = 0.5;
   double longestRoll = 6.0;
-  double carryDistance = 0.8;
+  double carryDistance = 0.5;
   double carrySpeed = 0.15;
   double carryAlong = 0.7;
 
@@ -59,7 +59,7 @@ struct PaceParameters {
 
 /// Who walks far from the ball looks along its way now and then: whom it does not see it runs over.
 struct GlanceParameters {
-  double every = 0.7;
+  double every = 0.6;
   double length = 0.35;
   double farFromBall = 1.5;
   double farToGo = 0.6;

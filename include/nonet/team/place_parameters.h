@@ -230,7 +230,7 @@ struct NavigationParameters {
   double facing = 0.25;
   double crowded = 0.1;
   double detourStep = 1.0;
-  double slowStep = 0.25;
+  double slowStep = 0.4;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "nonet/lab/trial/scrum_trial.h"
 #include "nonet/math/random.h"
 
 #include "lab/common/parallel.h"
@@ -143,6 +144,21 @@ BallSkillReport measureAttack(const BallReportSettings& s, const sim::Settings& 
            "attack_s", "s until the goal", trials, [](const auto& t) { return t.simulated; }, goal)});
 }
 
+BallSkillReport measureScrum(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials =
+      repeated(s, "scrum", [&](auto seed) { return scrumOnce(s.agent, s.opponent, server, seed); });
+  const auto row = [&](const char* key, const char* what, double Scrum::*value) {
+    return figure(key, what, trials, [value](const Scrum& t) { return t.*value; });
+  };
+  return reportOf("scrum", trials,
+                  {row("scrum_m", "m gained by three against three", &Scrum::gained),
+                   row("scrum_territory_m", "m, the same over the time", &Scrum::territory),
+                   row("scrum_falls", "falls of the three", &Scrum::falls),
+                   row("scrum_opponent_falls", "falls of the others", &Scrum::opponentFalls),
+                   row("scrum_charges", "of the three that charge", &Scrum::charges),
+                   row("scrum_opponent_charges", "of the others", &Scrum::opponentCharges)});
+}
+
 BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, "receive", [&](auto seed) { return receiveOnce(s.agent, server, seed); });
   return reportOf("receive", trials,
@@ -169,6 +185,7 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
   if (skill == "drive") return measureDrive(s, server);
   if (skill == "duel") return measureDuel(s, server);
   if (skill == "attack") return measureAttack(s, server);
+  if (skill == "scrum") return measureScrum(s, server);
   if (skill == "receive") return measureReceiving(s, server);
   if (skill == "run") return measureRun(s, server);
   throw std::runtime_error(
@@ -178,7 +195,7 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
 }  // namespace
 
 std::vector<std::string> ballSkillNames() {
-  return {"approach", "dribble", "slalom", "drive", "duel", "attack", "receive", "run"};
+  return {"approach", "dribble", "slalom", "drive", "duel", "attack", "scrum", "receive", "run"};
 }
 
 BallReport measureBallSkills(const BallReportSettings& settings) {

@@ -33,6 +33,7 @@ std::span<const Task* const> registeredTasks() {
       &dribbleTask(),
       &receiveTask(),
       &contestTask(),
+      &scrumTask(),
       &attackTask(),
       &quadraticTask(),
   };

@@ -33,6 +33,7 @@ const Task& footworkTask();
 const Task& dribbleTask();
 const Task& receiveTask();
 const Task& contestTask();
+const Task& scrumTask();
 const Task& attackTask();
 const Task& blockTask();
 const Task& saveTask();

@@ -1,0 +1,26 @@
+// A piece of open play around a contested ball: three robots a side, whole agents, for twelve seconds or
+// until the ball leaves the field, and the same once more with the sides exchanged, so that who stood better
+// at the begin does not count. How far the ball comes tells two teams apart in a tenth of the time that
+// goals take (docs/notebook.md); what the rest of a team does it does not show.
+//
+// The same arguments always give the same trial.
+#pragma once
+
+#include <cstdint>
+
+#include "nonet/lab/trial/ball_trial.h"
+
+namespace nonet::lab {
+
+struct Scrum : TrialCost {  // falls and self-collisions: of the robots of `agent`
+  double gained = 0.0;      // m that the ball came towards the opponents' goal, mean of both sides
+  double territory = 0.0;   // m, the same on average over the time
+  double falls = 0.0;       // of one side of three, mean of both
+  double opponentFalls = 0.0;
+  double charges = 0.0;  // robots that made such a foul, likewise
+  double opponentCharges = 0.0;
+};
+Scrum scrumOnce(const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
+                const sim::Settings& settings, std::uint64_t seed);
+
+}  // namespace nonet::lab

@@ -1,0 +1,136 @@
+#include "nonet/lab/trial/scrum_trial.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
+#include "nonet/math/random.h"
+
+#include "lab/trial/ball_drill.h"
+
+namespace nonet::lab {
+
+namespace {
+
+constexpr std::size_t kPerSide = 3;
+constexpr int kFirstNumber = 3;
+constexpr double kTime = 12.0;   // s
+constexpr double kAlong = 8.0;   // m, ball's place from the middle
+constexpr double kAcross = 7.0;  // m
+constexpr double kTurned = 0.4;  // rad, the line between the sides
+constexpr double kFacing = 0.6;  // rad, robots off the direction of the ball
+constexpr double kApart = 0.45;  // m
+constexpr int kMoves = 20;       // until they are so far apart
+
+struct Ring {          // where a robot stands from the ball
+  double least, most;  // m
+  double wide;         // rad to either side of its own goal's direction
+};
+constexpr std::array<Ring, kPerSide> kRings = {{{0.4, 1.5, 1.3}, {0.9, 2.6, 2.0}, {0.9, 2.6, 2.0}}};
+
+using Places = std::array<Pose2, 2 * kPerSide>;  // the left side's first
+
+void moveApart(Places& places) {
+  for (int move = 0; move < kMoves; ++move) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vector2 way = places[i].translation - places[j].translation;
+        const double apart = way.norm();
+        if (apart >= kApart) continue;
+        const Vector2 half =
+            0.5 * (kApart - apart) * (apart > 1e-6 ? Vector2(way / apart) : Vector2::UnitX());
+        places[i].translation += half;
+        places[j].translation -= half;
+      }
+    }
+  }
+}
+
+Places drawPlaces(const Vector2& ball, Random& random) {
+  Places places;
+  const double turned = random.uniform(-kTurned, kTurned);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Ring& ring = kRings[i % kPerSide];
+    const double side = i < kPerSide ? -1.0 : 1.0;
+    const double distance = random.uniform(ring.least, ring.most);
+    const double from = turned + random.uniform(-ring.wide, ring.wide);
+    const Vector2 place = ball + side * distance * unitVector(from);
+    places[i] = Pose2(place, wrapAngle(directionOf(ball - place) + random.uniform(-kFacing, kFacing)));
+  }
+  moveApart(places);
+  return places;
+}
+
+// Each robot's falls, as they begin.
+class FallCount {
+ public:
+  void look(const GameTrial& game) {
+    for (std::size_t i = 0; i < lay_.size(); ++i) {
+      const bool lies = game.down(i);
+      if (lies && !lay_[i]) ++falls_[i / kPerSide];
+      lay_[i] = lies;
+    }
+  }
+  int of(std::size_t side) const { return falls_[side]; }
+
+ private:
+  std::array<bool, 2 * kPerSide> lay_{};
+  std::array<int, 2> falls_{};
+};
+
+// Robots that have made one. A foul is written anew in each cycle until it is punished.
+int foulers(const GameTrial& game, std::size_t side, sim::FoulType type) {
+  int count = 0;
+  for (std::size_t i = 0; i < kPerSide; ++i) count += game.fouls(side * kPerSide + i, type) > 0 ? 1 : 0;
+  return count;
+}
+
+// Once, with `agent` on the side `own`: 0 the left one.
+void play(const std::array<const agent::AgentSettings*, 2>& agents, std::size_t own, const Vector2& ball,
+          const Places& places, const sim::Settings& settings, std::uint64_t seed, Scrum& scrum) {
+  GameSituation situation;
+  situation.ball = ball;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool right = i >= kPerSide;
+    GamePlayer player{*agents[i / kPerSide], right, places[i], {}};
+    player.agent.unum = kFirstNumber + static_cast<int>(i % kPerSide);
+    situation.players.push_back(player);
+  }
+  RecordedTrial trial(settings, situation, seed);
+  FallCount falls;
+  trial.run(kTime, [&] {
+    falls.look(trial.game());
+    return trial.playsOn();
+  });
+  const double forward = own == 0 ? 1.0 : -1.0;
+  double sum = 0.0;
+  for (const BallSample& sample : trial.track()) sum += sample.ball.x() - ball.x();
+  scrum.gained += 0.5 * forward * (trial.track().back().ball.x() - ball.x());
+  scrum.territory += 0.5 * forward * sum / static_cast<double>(trial.track().size());
+  scrum.falls += 0.5 * falls.of(own);
+  scrum.opponentFalls += 0.5 * falls.of(1 - own);
+  scrum.charges += 0.5 * foulers(trial.game(), own, sim::FoulType::Charging);
+  scrum.opponentCharges += 0.5 * foulers(trial.game(), 1 - own, sim::FoulType::Charging);
+  scrum.fell = scrum.fell || falls.of(own) > 0;
+  scrum.selfCollisions += foulers(trial.game(), own, sim::FoulType::SelfCollision);
+  scrum.simulated += trial.game().time();
+}
+
+}  // namespace
+
+Scrum scrumOnce(const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
+                const sim::Settings& settings, std::uint64_t seed) {
+  Random random(seed);
+  const double along = random.uniform(-kAlong, kAlong);
+  const Vector2 ball(along, random.uniform(-kAcross, kAcross));
+  const Places places = drawPlaces(ball, random);
+  const std::uint64_t noise = random.next();
+  Scrum scrum;
+  play({&agent, &opponent}, 0, ball, places, settings, noise, scrum);
+  play({&opponent, &agent}, 1, ball, places, settings, noise, scrum);
+  return scrum;
+}
+
+}  // namespace nonet::lab

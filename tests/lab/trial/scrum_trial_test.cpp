@@ -1,0 +1,58 @@
+// Three against three around the ball: fair to equals, and won by who can walk.
+#include "nonet/lab/trial/scrum_trial.h"
+
+#include <gtest/gtest.h>
+
+#include "nonet/agent/agent_setup.h"
+
+namespace nonet::lab {
+namespace {
+
+agent::AgentSettings agentOfType(int type) {
+  agent::AgentChoice choice;
+  choice.robotType = type;
+  return agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
+}
+
+sim::Settings quick() {
+  sim::Settings settings;
+  settings.quickSolver = true;
+  return settings;
+}
+
+// Both sides have each begin once, so equals gain nothing, to the last digit.
+TEST(ScrumTrial, EqualsGainNothing) {
+  const agent::AgentSettings agent = agentOfType(2);
+  bool moved = false;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Scrum scrum = scrumOnce(agent, agent, quick(), seed);
+    EXPECT_NEAR(scrum.gained, 0.0, 1e-9);
+    EXPECT_NEAR(scrum.territory, 0.0, 1e-9);
+    EXPECT_EQ(scrum.falls, scrum.opponentFalls);
+    EXPECT_EQ(scrum.charges, scrum.opponentCharges);
+    EXPECT_LE(scrum.charges, 3.0);
+    EXPECT_GT(scrum.simulated, 2.0);
+    EXPECT_LE(scrum.simulated, 24.1);
+    moved = moved || scrum.falls > 0.0 || scrum.simulated < 23.0;
+  }
+  EXPECT_TRUE(moved);
+}
+
+TEST(ScrumTrial, WhoCannotWalkLosesGround) {
+  agent::AgentSettings lame = agentOfType(2);
+  for (motion::WalkParameters* set :
+       {&lame.parameters.motion.sets.goToTarget, &lame.parameters.motion.sets.positioning})
+    set->gait.maxStepX = 0.001;
+  const agent::AgentSettings agent = agentOfType(2);
+  double gained = 0.0;
+  double lost = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    gained += 0.25 * scrumOnce(agent, lame, quick(), seed).gained;
+    lost += 0.25 * scrumOnce(lame, agent, quick(), seed).gained;
+  }
+  EXPECT_GT(gained, 2.0);
+  EXPECT_NEAR(lost, -gained, 1e-9);  // the same scrums, seen from the other side
+}
+
+}  // namespace
+}  // namespace nonet::lab
