@@ -232,7 +232,7 @@ def also_table(pairs, names, columns, what):
     found = {c: {name: (effect, effect / max(error, 1e-9)) for name, effect, error in
                  effects([(r["against"], set(r["changes"]), values[c]) for r, values in pairs], names, opponents)}
              for c in columns}
-    lines = ["", f"{len(pairs)} pairs: what else they change{what}, in brackets in standard errors",
+    lines = ["", f"{len(pairs)} {what}, in brackets in standard errors",
              " " * 16 + "".join(f"{c:>15}" for c in columns),
              f"{'mean':16}" + "".join(f"{sum(v[c] for _, v in pairs) / len(pairs):8.2f}       " for c in columns)]
     for name in names:
@@ -262,11 +262,11 @@ def table(records, names, out):
     names = [name for name, _, _ in found]
     if in_scrums:
         pairs = [(r, {column: r["scrum"][key] for column, key in SCRUM_MEASURES.items()}) for r in records]
-        also = also_table(pairs, names, list(SCRUM_MEASURES)[1:], " in a scrum, for each side")
+        also = also_table(pairs, names, list(SCRUM_MEASURES)[1:], "draws: what else they change in a scrum, for a side")
     else:
         pairs = [(r, measured(out / "pairs" / str(r["pair"]))) for r in records]
         also = also_table([(r, values) for r, values in pairs if values], names, [*MEASURES, "possession"],
-                          " in ten minutes (possession: %)")
+                          "pairs: what else they change in ten minutes (possession: %)")
     return "\n".join(lines) + "\n" + also
 
 
