@@ -136,7 +136,7 @@ def scrums(pair, made, opponent, changes, settings):
         command += ["--set", assignment]
     report = json.loads(output_of(command))
     return {"pair": pair, "against": opponent, "changes": made,
-            "scrum": {key: report[key]["mean"] for key in SCRUM_MEASURES.values()}}
+            "scrum": {column: report[key]["mean"] for column, key in SCRUM_MEASURES.items()}}
 
 
 def play(pair, made, opponent, changes, settings):
@@ -191,7 +191,7 @@ def read_records(path):
     return records
 
 
-SCRUM_MEASURES = {  # column: key in the report; the first is what decides
+SCRUM_MEASURES = {  # column: key in the report
     "gained": "scrum_m",
     "territory": "scrum_territory_m",
     "falls": "scrum_falls",
@@ -200,12 +200,13 @@ SCRUM_MEASURES = {  # column: key in the report; the first is what decides
     "theirs": "scrum_opponent_charges",
 }
 
-MEASURES = {  # of side A in one game, from its statistics and the goals against it
-    "against": lambda own, against: against,
-    "on target": lambda own, against: own["shots_on_target"],
-    "passes": lambda own, against: own["passes_completed"],
-    "falls": lambda own, against: own["falls"],
-    "charging": lambda own, against: own["fouls"].get("charging", 0),
+MEASURES = {  # of side A in one game, from its statistics, the goals against it and what makes ten minutes of a game
+    "against": lambda own, against, ten: ten * against,
+    "on target": lambda own, against, ten: ten * own["shots_on_target"],
+    "passes": lambda own, against, ten: ten * own["passes_completed"],
+    "falls": lambda own, against, ten: ten * own["falls"],
+    "charging": lambda own, against, ten: ten * own["fouls"].get("charging", 0),
+    "possession": lambda own, against, ten: own["possession_percent"],
 }
 
 
@@ -215,20 +216,21 @@ def measured(folder):
         games = [json.loads(line) for line in (folder / "matches.jsonl").read_text().splitlines()]
     except (OSError, json.JSONDecodeError):
         return None
-    sums = dict.fromkeys([*MEASURES, "possession"], 0.0)
+    sums = dict.fromkeys(MEASURES, 0.0)
     for game in games:
         own = game["statistics"]["teams"][0 if game["a"] == "left" else 1]
         for name, measure in MEASURES.items():
-            sums[name] += 600 / game["game_time_s"] * measure(own, game["score_b"])
-        sums["possession"] += own["possession_percent"]
+            sums[name] += measure(own, game["score_b"], 600 / game["game_time_s"])
     return {name: value / len(games) for name, value in sums.items()} if games else None
 
 
-def also_table(pairs, names, columns, what):
-    """What else the changes do, in the order of `names`: effects, and in brackets in standard errors."""
+def also_table(pairs, names, what):
+    """What else the changes do, in the order of `names`: effects, and in brackets in standard errors. `pairs` are records
+    with their values by column."""
     opponents = sorted({r["against"] for r, _ in pairs})
     if len(pairs) <= len(opponents) + len(names):
         return ""
+    columns = list(pairs[0][1])
     found = {c: {name: (effect, effect / max(error, 1e-9)) for name, effect, error in
                  effects([(r["against"], set(r["changes"]), values[c]) for r, values in pairs], names, opponents)}
              for c in columns}
@@ -243,7 +245,7 @@ def also_table(pairs, names, columns, what):
 def value_of(record):
     """What decides: metres in a scrum, or goals in ten minutes."""
     if "scrum" in record:
-        return record["scrum"][SCRUM_MEASURES["gained"]]
+        return record["scrum"]["gained"]
     return 10 / record["minutes"] * sum(a - b for a, b in record["goals"]) / len(record["goals"])
 
 
@@ -261,11 +263,11 @@ def table(records, names, out):
         lines.append(f"{name:16} {effect:+6.2f} {error:5.2f} {effect / max(error, 1e-9):+5.1f}   in {made} pairs")
     names = [name for name, _, _ in found]
     if in_scrums:
-        pairs = [(r, {column: r["scrum"][key] for column, key in SCRUM_MEASURES.items()}) for r in records]
-        also = also_table(pairs, names, list(SCRUM_MEASURES)[1:], "draws: what else they change in a scrum, for a side")
+        pairs = [(r, {c: value for c, value in r["scrum"].items() if c != "gained"}) for r in records]
+        also = also_table(pairs, names, "draws: what else they change in a scrum, for a side")
     else:
         pairs = [(r, measured(out / "pairs" / str(r["pair"]))) for r in records]
-        also = also_table([(r, values) for r, values in pairs if values], names, [*MEASURES, "possession"],
+        also = also_table([(r, values) for r, values in pairs if values], names,
                           "pairs: what else they change in ten minutes (possession: %)")
     return "\n".join(lines) + "\n" + also
 

@@ -1,8 +1,6 @@
 #include "nonet/lab/trial/scrum_trial.h"
 
 #include <array>
-#include <cmath>
-#include <vector>
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
@@ -87,18 +85,25 @@ int foulers(const GameTrial& game, std::size_t side, sim::FoulType type) {
   return count;
 }
 
+struct Begin {
+  Vector2 ball;
+  Places places;
+  std::uint64_t noise;
+};
+
 // Once, with `agent` on the side `own`: 0 the left one.
-void play(const std::array<const agent::AgentSettings*, 2>& agents, std::size_t own, const Vector2& ball,
-          const Places& places, const sim::Settings& settings, std::uint64_t seed, Scrum& scrum) {
+void play(const agent::AgentSettings& agent, const agent::AgentSettings& opponent, std::size_t own,
+          const Begin& begin, const sim::Settings& settings, Scrum& scrum) {
+  const Vector2& ball = begin.ball;
   GameSituation situation;
   situation.ball = ball;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const bool right = i >= kPerSide;
-    GamePlayer player{*agents[i / kPerSide], right, places[i], {}};
+  for (std::size_t i = 0; i < begin.places.size(); ++i) {
+    const std::size_t side = i / kPerSide;
+    GamePlayer player{side == own ? agent : opponent, side == 1, begin.places[i], {}};
     player.agent.unum = kFirstNumber + static_cast<int>(i % kPerSide);
     situation.players.push_back(player);
   }
-  RecordedTrial trial(settings, situation, seed);
+  RecordedTrial trial(settings, situation, begin.noise);
   FallCount falls;
   trial.run(kTime, [&] {
     falls.look(trial.game());
@@ -126,10 +131,9 @@ Scrum scrumOnce(const agent::AgentSettings& agent, const agent::AgentSettings& o
   const double along = random.uniform(-kAlong, kAlong);
   const Vector2 ball(along, random.uniform(-kAcross, kAcross));
   const Places places = drawPlaces(ball, random);
-  const std::uint64_t noise = random.next();
+  const Begin begin{ball, places, random.next()};
   Scrum scrum;
-  play({&agent, &opponent}, 0, ball, places, settings, noise, scrum);
-  play({&opponent, &agent}, 1, ball, places, settings, noise, scrum);
+  for (const std::size_t own : {0U, 1U}) play(agent, opponent, own, begin, settings, scrum);
   return scrum;
 }
 

@@ -6,26 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include "nonet/agent/agent_setup.h"
 #include "nonet/lab/reports/ball_report.h"
 #include "nonet/lab/trial/game_trial.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 
+#include "motion/trial_setup.h"
+
 namespace nonet::lab {
 namespace {
-
-agent::AgentSettings agentOfType(int type) {
-  agent::AgentChoice choice;
-  choice.robotType = type;
-  return agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
-}
-
-sim::Settings quick() {
-  sim::Settings settings;
-  settings.quickSolver = true;
-  return settings;
-}
 
 TEST(BallTrial, DribblesTenMetres) {
   int arrived = 0;
@@ -90,9 +79,7 @@ TEST(BallTrial, RunsAndStops) {
 
 // Who does not move takes no duel.
 TEST(BallTrial, OneThatCannotWalkLosesTheDuel) {
-  agent::AgentSettings lame = agentOfType(0);
-  lame.parameters.motion.sets.goToTarget.gait.maxStepX = 0.001;
-  lame.parameters.motion.sets.positioning.gait.maxStepX = 0.001;
+  const agent::AgentSettings lame = lameAgent(0);
   double won = 0.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) won += duelOnce(agentOfType(0), lame, quick(), seed).won;
   EXPECT_GE(won, 2.5);

@@ -5,15 +5,16 @@
 
 #include <gtest/gtest.h>
 
-#include "nonet/agent/agent_setup.h"
 #include "nonet/math/angle.h"
+
+#include "motion/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
 
 GamePlayer player(const Pose2& X_WR, bool rightTeam = false, const Mind& mind = {}) {
   GamePlayer result;
-  result.agent = agent::makeAgentSettings({}, NONET_SOURCE_DIR);
+  result.agent = agentOfType(0);
   result.X_WR = X_WR;
   result.rightTeam = rightTeam;
   result.mind = mind;
@@ -28,12 +29,6 @@ team::Action walk(const world::WorldState& /*world*/, const motion::MotionState&
   team::Action action;
   action.motion = motion::WalkVelocity{Pose2(0.6, 0.0, 0.0)};
   return action;
-}
-
-sim::Settings quick() {
-  sim::Settings settings;
-  settings.quickSolver = true;
-  return settings;
 }
 
 TEST(GameTrial, BeginsWithTheSituation) {

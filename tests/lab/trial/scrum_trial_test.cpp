@@ -3,22 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "nonet/agent/agent_setup.h"
+#include "motion/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
-
-agent::AgentSettings agentOfType(int type) {
-  agent::AgentChoice choice;
-  choice.robotType = type;
-  return agent::makeAgentSettings(choice, NONET_SOURCE_DIR);
-}
-
-sim::Settings quick() {
-  sim::Settings settings;
-  settings.quickSolver = true;
-  return settings;
-}
 
 // Both sides have each begin once, so equals gain nothing, to the last digit.
 TEST(ScrumTrial, EqualsGainNothing) {
@@ -39,10 +27,7 @@ TEST(ScrumTrial, EqualsGainNothing) {
 }
 
 TEST(ScrumTrial, WhoCannotWalkLosesGround) {
-  agent::AgentSettings lame = agentOfType(2);
-  for (motion::WalkParameters* set :
-       {&lame.parameters.motion.sets.goToTarget, &lame.parameters.motion.sets.positioning})
-    set->gait.maxStepX = 0.001;
+  const agent::AgentSettings lame = lameAgent(2);
   const agent::AgentSettings agent = agentOfType(2);
   double gained = 0.0;
   double lost = 0.0;
