@@ -1,7 +1,7 @@
 // A piece of open play around a contested ball: three robots a side, whole agents, for twelve seconds or
 // until the ball leaves the field, and the same once more with the sides exchanged, so that who stood better
-// at the begin does not count. How far the ball comes tells two teams apart in a tenth of the time that
-// goals take (docs/notebook.md); what the rest of a team does it does not show.
+// at the begin does not count. How far the ball comes tells two teams apart in about a sixth of the time
+// that goals take (docs/notebook.md); what the rest of a team does it does not show.
 //
 // The same arguments always give the same trial.
 #pragma once
