@@ -30,7 +30,11 @@ double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_F
 BallForecast::BallForecast(const world::WorldState& world, const PaceParameters& pace)
     : free_({world.ball.p_FB, world.ball.v_FB}), longestRoll_(pace.longestRoll) {
   const Vector2 ball = world.ball.p_FB.head<2>();
+  // Nobody carries a ball that one of us has nearer.
   double nearest = pace.carryDistance;
+  for (const world::PlayerState& mate : world.teammates) {
+    if (mate.known && !mate.fallen) nearest = std::min(nearest, (mate.X_FP.translation - ball).norm());
+  }
   for (const world::PlayerState& opponent : world.opponents) {
     if (!opponent.known || opponent.fallen) continue;
     const Vector2 offset = ball - opponent.X_FP.translation;

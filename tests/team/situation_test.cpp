@@ -27,6 +27,17 @@ TEST(Situation, KnowsWhoIsHowFarFromTheBall) {
   EXPECT_NEAR(s.timeToBall[5], 1.0 / scene.parameters.pace.walkSpeed, 0.05);
 }
 
+TEST(Situation, AnOpponentCarriesTheBallThatItWalksAfterUnlessOneOfUsHasItNearer) {
+  Scene scene;
+  Scene::put(scene.world.opponents[4], Pose2(1.4, 0.0, kPi));
+  scene.world.opponents[4].v_FP = {-0.5, 0.0};
+  EXPECT_LT((scene.situation(Role::OnBall).forecast.at(1.0) - Vector2(0.5, 0.0)).norm(), 1e-9);
+  scene.stand(Pose2(0.7, 0.0, 0.0));
+  EXPECT_LT((scene.situation(Role::OnBall).forecast.at(1.0) - Vector2(1.0, 0.0)).norm(), 1e-9);
+  scene.world.teammates[5].fallen = true;
+  EXPECT_LT((scene.situation(Role::OnBall).forecast.at(1.0) - Vector2(0.5, 0.0)).norm(), 1e-9);
+}
+
 // The geometry of the turn against the angle between two vectors, in fuzzed scenes.
 TEST(Situation, TheOwnTurnDescribesTheBallAsTheRobotSeesIt) {
   Random random(8);

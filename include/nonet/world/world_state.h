@@ -78,14 +78,14 @@ enum class Phase : std::uint8_t {
 constexpr bool isOpenPlay(Phase phase) {
   return phase == Phase::PlayOn || phase == Phase::OwnPass;
 }
+constexpr bool isKickOff(Phase phase) {
+  return phase == Phase::OwnKickOff || phase == Phase::OpponentKickOff;
+}
 /// Phases in which the own team takes the kick (kick-off to direct free kick), and in which the opponents do
 /// (these and their pass mode).
 constexpr bool isOwnSetPiece(Phase phase) {
   return phase == Phase::OwnKickOff || phase == Phase::OwnKickIn || phase == Phase::OwnCorner ||
          phase == Phase::OwnGoalKick || phase == Phase::OwnFreeKick || phase == Phase::OwnDirectFreeKick;
-}
-constexpr bool isKickOff(Phase phase) {
-  return phase == Phase::OwnKickOff || phase == Phase::OpponentKickOff;
 }
 constexpr bool isOpponentSetPiece(Phase phase) {
   return phase == Phase::OpponentKickOff || phase == Phase::OpponentKickIn ||
