@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "nonet/math/direction.h"
 
@@ -27,14 +28,19 @@ double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_F
 
 }  // namespace
 
+double nearestOf(std::span<const world::PlayerState> players, const Vector2& p_F) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const world::PlayerState& player : players) {
+    if (player.known && !player.fallen) nearest = std::min(nearest, (player.X_FP.translation - p_F).norm());
+  }
+  return nearest;
+}
+
 BallForecast::BallForecast(const world::WorldState& world, const PaceParameters& pace)
     : free_({world.ball.p_FB, world.ball.v_FB}), longestRoll_(pace.longestRoll) {
   const Vector2 ball = world.ball.p_FB.head<2>();
   // Nobody carries a ball that one of us has nearer.
-  double nearest = pace.carryDistance;
-  for (const world::PlayerState& mate : world.teammates) {
-    if (mate.known && !mate.fallen) nearest = std::min(nearest, (mate.X_FP.translation - ball).norm());
-  }
+  double nearest = std::min(pace.carryDistance, nearestOf(world.teammates, ball));
   for (const world::PlayerState& opponent : world.opponents) {
     if (!opponent.known || opponent.fallen) continue;
     const Vector2 offset = ball - opponent.X_FP.translation;

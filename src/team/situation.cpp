@@ -16,15 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double nearestOpponent(const world::WorldState& world) {
-  const Vector2 ball = world.ball.p_FB.head<2>();
-  double nearest = kInfinity;
-  for (const world::PlayerState& player : world.opponents) {
-    if (player.known && !player.fallen) nearest = std::min(nearest, (player.X_FP.translation - ball).norm());
-  }
-  return nearest;
-}
-
 Formation placesFor(const Situation& s) {
   const world::WorldState& world = s.world;
   FormationParameters parameters = s.parameters.formation;
@@ -124,7 +115,7 @@ Situation assess(const world::WorldState& world, const TeamParameters& parameter
   if (record != nullptr) record->clear();
   s.p_FTarget = ballTarget(world, parameters.target, present, record);
   if (record != nullptr) s.targets = record->all();
-  s.nearestOpponent = nearestOpponent(world);
+  s.nearestOpponent = nearestOf(world.opponents, s.ball());
   s.timeToBall.fill(kInfinity);
   for (std::size_t unum = 1; unum < s.timeToBall.size(); ++unum) {
     const world::PlayerState& mate = world.teammates[unum];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "nonet/math/pose2.h"
 #include "nonet/team/parameters.h"
@@ -17,8 +18,12 @@ struct Runner {
   bool fallen = false;
 };
 
-/// Where the ball will be: flying and rolling freely, or carried on by an opponent that dribbles it. Own
-/// field frame.
+/// m from p_F (own field frame) to the nearest of these players that is known and on its feet; infinite:
+/// none.
+double nearestOf(std::span<const world::PlayerState> players, const Vector2& p_F);
+
+/// Where the ball will be: flying and rolling freely, or carried on by an opponent that dribbles it and has
+/// it nearer than any of us. Own field frame.
 class BallForecast {
  public:
   BallForecast(const world::WorldState& world, const PaceParameters& pace);
