@@ -27,8 +27,7 @@ for check in "${checks[@]}"; do
       done
       ;;
     tidy)
-      [ -f build/dev/compile_commands.json ] || cmake --preset dev >/dev/null
-      python3 scripts/tidy.py --build build/dev
+      python3 scripts/tidy.py
       ;;
     *)
       echo "check: unknown check '$check' (format, includes, citations, scripts, tidy)" >&2

@@ -127,16 +127,26 @@ def check(entry, root, stamps, deadline):
     return entry["file"], run.returncode == 0, run.stdout
 
 
+def configured(root):
+    """The build folder of the preset tidy, with the files that others include. The dev preset compiles several as one."""
+    for command in (["cmake", "--preset", "tidy"], ["cmake", "--build", "--preset", "tidy", "--target", "nonet_commit"]):
+        run = subprocess.run(command, cwd=root, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        if run.returncode != 0:
+            sys.exit(f"tidy: {' '.join(command)} failed:\n{run.stdout}")
+    return root / "build" / "tidy"
+
+
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build/dev", help="folder with compile_commands.json")
+    parser.add_argument("--build", help="folder with compile_commands.json that names each file by itself; "
+                        "without it the preset tidy is configured")
     parser.add_argument("-j", type=int, default=min(2, os.cpu_count() or 1), help="files at a time")
     parser.add_argument("--limit", type=float, default=math.inf, help="seconds")
     parser.add_argument("--changed-since", metavar="REV", help="only what changed since the merge base with REV")
     parser.add_argument("pattern", nargs="?", default="", help="only files whose path contains this")
     options = parser.parse_args()
-    build = (root / options.build).resolve()
+    build = (root / options.build).resolve() if options.build else configured(root)
     entries = [plain(entry) for entry in json.loads((build / "compile_commands.json").read_text())
                if pathlib.Path(entry["file"]).is_relative_to(root / "src") and options.pattern in entry["file"]]
     nothing = not entries

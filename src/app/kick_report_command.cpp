@@ -34,11 +34,11 @@ int run(const KickReportArguments& arguments) {
   settings.server = arguments.server.chosen();
   Console console(stderr);
   settings.progress = console.trials();
-  const std::vector<lab::KickStatistics> report = lab::measureKicks(settings);
+  const std::vector<lab::KickMeasures> report = lab::measureKicks(settings);
   console.end();
   fmt::print("{}", arguments.json ? lab::kickReportJson(report, settings) : lab::kickReportTable(report));
   if (arguments.svg.empty()) return 0;
-  for (const lab::KickStatistics& kick : report) {
+  for (const lab::KickMeasures& kick : report) {
     const std::string path = fmt::format("{}{}.svg", arguments.svg, kick.name);
     lab::writeAtomically(path, lab::kickReportSvg(kick, settings));
     fmt::print(stderr, "{}\n", path);

@@ -23,10 +23,6 @@ namespace nonet::model {
 
 namespace {
 
-constexpr double kAngleTolerance = 1e-9;    // rad
-constexpr double kLengthTolerance = 1e-10;  // m
-constexpr int kMaxFitIterations = 60;
-
 struct ArmGeometry {
   ArmGeometry(const RobotModel& model, Side side) {
     const std::size_t first = index(side == Side::Left ? JointId::LArm1 : JointId::RArm1);

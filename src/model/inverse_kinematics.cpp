@@ -12,10 +12,6 @@ namespace nonet::model {
 
 namespace {
 
-// Rounding may put an exact solution this far outside a limit.
-constexpr double kAngleTolerance = 1e-9;    // rad
-constexpr double kLengthTolerance = 1e-10;  // m
-constexpr int kMaxFitIterations = 60;
 constexpr int kShiftSteps = 4;
 constexpr double kShiftDamping = 0.02;  // m/rad
 

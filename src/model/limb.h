@@ -12,6 +12,12 @@
 
 namespace nonet::model {
 
+// Rounding may put an exact solution this far outside a limit.
+constexpr double kAngleTolerance = 1e-9;    // rad
+constexpr double kLengthTolerance = 1e-10;  // m
+// Of the fit that comes nearest where there is no exact solution.
+constexpr int kMaxFitIterations = 60;
+
 template <int N>
 class Limb {
  public:

@@ -24,7 +24,7 @@ TEST_P(Kicking, GoesFarAndStraightFromAllSides) {
   KickReportSettings settings = settingsOf(GetParam());
   settings.kick = "any";
   settings.trials = 100;
-  const KickStatistics kicks = measureKicks(settings).at(0);
+  const KickMeasures kicks = measureKicks(settings).at(0);
   EXPECT_GT(kicks.distance.median, 5.5);
   EXPECT_GT(kicks.distance.p10, 4.5);
   EXPECT_LT(kicks.under2m, 0.06);
@@ -58,7 +58,7 @@ TEST(KickReport, MeasuresTheFanOfTheBallsWays) {
   KickReportSettings settings = settingsOf(4);
   settings.kick = "any";
   settings.trials = 2;
-  const KickStatistics kicks = measureKicks(settings).at(0);
+  const KickMeasures kicks = measureKicks(settings).at(0);
   const std::string svg = kickReportSvg(kicks, settings);
   EXPECT_GT(std::count(svg.begin(), svg.end(), '\n'), 20);
   for (const Kick& kick : kicks.kicks) {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace nonet::literals;
 
-Percept parsed(std::string_view text) {
+Percept perceptOf(std::string_view text) {
   Percept percept;
   parsePercept(text, percept);
   return percept;
@@ -20,7 +20,7 @@ Percept parsed(std::string_view text) {
 
 TEST(Percept, GameStateInAllForms) {
   const Percept first =
-      parsed("(time (now 95.12))(GS (unum 7) (team right) (sl 1) (sr 2) (t 3.50) (pm corner_kick_left))");
+      perceptOf("(time (now 95.12))(GS (unum 7) (team right) (sl 1) (sr 2) (t 3.50) (pm corner_kick_left))");
   EXPECT_EQ(first.unknownTokens, 0);
   EXPECT_EQ(first.time, 95.12);
   EXPECT_EQ(first.game.unum, 7);
@@ -31,11 +31,11 @@ TEST(Percept, GameStateInAllForms) {
   EXPECT_EQ(first.game.playMode, PlayMode::CornerKickLeft);
   EXPECT_EQ(first.game.playModeText, "corner_kick_left");
 
-  const Percept bare = parsed("(GS (t 0.00) (pm BeforeKickOff))");
+  const Percept bare = perceptOf("(GS (t 0.00) (pm BeforeKickOff))");
   EXPECT_FALSE(bare.game.unum || bare.game.side || bare.game.scoreLeft || bare.game.scoreRight);
   EXPECT_EQ(bare.game.playMode, PlayMode::BeforeKickOff);
 
-  const Percept strange = parsed("(GS (t 1.00) (pm dance))");
+  const Percept strange = perceptOf("(GS (t 1.00) (pm dance))");
   EXPECT_EQ(strange.unknownTokens, 1);
   EXPECT_EQ(strange.game.playMode, PlayMode::Unknown);
   EXPECT_EQ(strange.game.playModeText, "dance");
@@ -44,7 +44,7 @@ TEST(Percept, GameStateInAllForms) {
 
 TEST(Percept, TurnsTheServersAxesIntoOurs) {
   // The server's x is to the right and y forward: a force to the right is along -y, one forward along x.
-  const Percept percept = parsed(
+  const Percept percept = perceptOf(
       "(GYR (n torso) (rt 10.00 20.00 30.00))(ACC (n torso) (a 1.00 2.00 9.81))"
       "(FRP (n lf) (c 0.01 0.05 -0.02) (f 3.00 4.00 22.00))");
   EXPECT_TRUE(percept.gyro.isApprox(Vector3(toRadians(20.0), toRadians(-10.0), toRadians(30.0))));
@@ -62,7 +62,7 @@ TEST(Percept, TurnsTheServersAxesIntoOurs) {
 }
 
 TEST(Percept, JointsByName) {
-  const Percept percept = parsed("(HJ (n hj2) (ax -45.00))(HJ (n llj7) (ax 1.50))");
+  const Percept percept = perceptOf("(HJ (n hj2) (ax -45.00))(HJ (n llj7) (ax 1.50))");
   EXPECT_EQ(percept.jointsPresent,
             1U << model::index(model::JointId::Head2) | 1U << model::index(model::JointId::LLeg7));
   EXPECT_EQ(percept.joints[model::index(model::JointId::Head2)], toRadians(-45.0));
@@ -70,7 +70,7 @@ TEST(Percept, JointsByName) {
 }
 
 TEST(Percept, Vision) {
-  const Percept percept = parsed(
+  const Percept percept = perceptOf(
       "(See (G2R (pol 10.00 30.00 -5.00)) (B (pol 2.00 0.00 -10.00)) (P (team Red) (id 3) (head (pol 4.00 "
       "1.00 "
       "2.00)) (lfoot (pol 4.10 3.00 -9.00))) (mypos 1.00 -2.00 0.50) (myorien -90.00) (ballpos 0.10 0.20 "
@@ -101,7 +101,7 @@ TEST(Percept, Vision) {
 }
 
 TEST(Percept, NothingIsLeftFromTheMessageBefore) {
-  Percept percept = parsed(
+  Percept percept = perceptOf(
       "(GS (unum 7) (sl 1) (t 1.00) (pm PlayOn))(See (B (pol 2.00 0.00 -10.00)) (mypos 1.00 2.00 3.00))"
       "(FRP (n rf) (c 0.00 0.00 0.00) (f 0.00 0.00 1.00))(HJ (n hj1) (ax 5.00))(hear 1.00 self x)(junk)");
   ASSERT_TRUE(percept.vision);
@@ -118,7 +118,7 @@ TEST(Percept, NothingIsLeftFromTheMessageBefore) {
 }
 
 TEST(Percept, HearingWithAndWithoutLabel) {
-  const Percept percept = parsed(
+  const Percept percept = perceptOf(
       "(hear Gold 1.50 self abc)(hear 2.50 -90.00 def)(hear self 3.50 45.00 ghi)(hear 4.50 self self)");
   ASSERT_EQ(percept.heard.size(), 4U);
   EXPECT_EQ(percept.heard[0].team, "Gold");
@@ -159,7 +159,7 @@ TEST(Percept, GarbageIsCountedAndWhatFollowsIsRead) {
            Garbage{"(See (B (pol 1.00 2.00 3.00)) (B (pol 4.00 2.00 3.00)))(See )", 2},
            Garbage{"(FRP (n  rf)\t(c 0.00\n0.00 0.00)(f 0.00 0.00 1.00) )", 0},
        }) {
-    const Percept percept = parsed(std::string(garbage.text) + "(time (now 1.50))");
+    const Percept percept = perceptOf(std::string(garbage.text) + "(time (now 1.50))");
     EXPECT_EQ(percept.unknownTokens, garbage.unknown) << garbage.text;
     EXPECT_EQ(percept.time, 1.5) << garbage.text;
   }
@@ -167,13 +167,13 @@ TEST(Percept, GarbageIsCountedAndWhatFollowsIsRead) {
 
 TEST(Percept, NestingAndTruncation) {
   std::string deep(100000, '(');
-  EXPECT_EQ(parsed(deep).unknownTokens, 1);
+  EXPECT_EQ(perceptOf(deep).unknownTokens, 1);
   deep += std::string(100000, ')') + "(time (now 2.00))";
-  EXPECT_EQ(parsed(deep).time, 2.0);
+  EXPECT_EQ(perceptOf(deep).time, 2.0);
   const std::string_view message =
       "(time (now 95.12))(See (B (pol 2.00 0.00 -10.00)) (F1L (pol 1.00 2.00 3.00)))";
   for (std::size_t length = 0; length < message.size(); ++length) {
-    const Percept percept = parsed(message.substr(0, length));
+    const Percept percept = perceptOf(message.substr(0, length));
     const bool whole = length == 0 || message.substr(0, length) == "(time (now 95.12))";
     EXPECT_EQ(percept.unknownTokens > 0, !whole) << message.substr(0, length);
   }

@@ -9,6 +9,11 @@
 
 namespace nonet::lab {
 
+// Of a picture with several plots: its width and the room above them for a title; m around what is drawn.
+constexpr double kPictureWidth = 1000.0;
+constexpr double kPictureHead = 60.0;
+constexpr double kPlotRoom = 0.5;
+
 struct PlotCurve {
   std::string name;  // in the legend, once for all of this name; empty: not there
   std::string color;

@@ -18,7 +18,7 @@ constexpr int kCycles = 3;                       // a step: from one sight to th
 constexpr std::array kMostSpeed{1.5, 0.8, 3.0};  // m/s, m/s, rad/s for an action of 1
 constexpr std::size_t kObservations = 14;
 constexpr double kFarthest = 5.0;  // m shown
-constexpr double kFall = 1.0;      // of reward
+constexpr double kBallFall = 1.0;  // of reward
 constexpr double kGone = 1.5;      // m, a ball that is lost for good
 
 motion::HeadRequest watch(const world::WorldState& world) {
@@ -56,7 +56,7 @@ class BallEnv : public Env {
     for (int i = 0; i < kCycles; ++i) trial_->step();
     EnvStep result = judge();
     if (!trial_->game().down(0)) return result;
-    return {result.reward - kFall, true, false};
+    return {result.reward - kBallFall, true, false};
   }
 
   // Robot frame: ball, its speed, the way from the ball to its target; the robot's speed and lean; how long

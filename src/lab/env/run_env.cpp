@@ -19,7 +19,7 @@ constexpr double kMostAngle = 1.2;  // rad from the stand for an action of 1
 constexpr double kShaken = 0.05;    // rad that a joint is off at first
 constexpr double kShakes = 0.2;     // s
 constexpr double kLongest = 10.0;   // s
-constexpr double kFall = 1.0;       // of reward
+constexpr double kRunFall = 1.0;    // of reward
 constexpr double kForce = 50.0;     // N, shown as 1
 constexpr std::size_t kBody = 14;   // numbers beside the joints' angles and speeds
 
@@ -54,7 +54,7 @@ class RunEnv final : public Env {
     const double way = wayMade();
     const double reward = way - way_;
     way_ = way;
-    if (trial_->down()) return {reward - kFall, true, false};
+    if (trial_->down()) return {reward - kRunFall, true, false};
     const bool timeUp = trial_->time() - begin_ > kLongest;
     return {reward, timeUp, timeUp};
   }

@@ -16,10 +16,7 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kWidth = 1000.0;
-constexpr double kHead = 60.0;         // of the picture, above the plots
 constexpr double kSideHeight = 150.0;  // of the view from the side
-constexpr double kRoom = 0.5;          // m around the ways
 constexpr double kBeside = 10.0;       // deg, of the lines that show what is still straight
 constexpr const char* kLine = "#777";
 
@@ -36,10 +33,10 @@ PlotCurve curveOf(const Kick& kick, bool fromAbove) {
 }
 
 // Both views have the same ends along the bottom, whole metres, so that they stand below each other.
-Plot viewOf(const KickStatistics& kick, bool fromAbove) {
+Plot viewOf(const KickMeasures& kick, bool fromAbove) {
   Plot plot;
   plot.legend = false;
-  plot.left = -kRoom;
+  plot.left = -kPlotRoom;
   double farthest = 2.0;
   for (const Kick& one : kick.kicks) {
     plot.curves.push_back(curveOf(one, fromAbove));
@@ -53,7 +50,7 @@ Plot viewOf(const KickStatistics& kick, bool fromAbove) {
   return plot;
 }
 
-Plot fromAbove(const KickStatistics& kick) {
+Plot fromAbove(const KickMeasures& kick) {
   Plot plot = viewOf(kick, true);
   plot.title = "from above, true to scale";
   plot.yLabel = "to the left, m";
@@ -61,8 +58,8 @@ Plot fromAbove(const KickStatistics& kick) {
   for (const Kick& one : kick.kicks) {
     for (const Vector3& p : one.path) aside = std::max(aside, std::abs(p.y()));
   }
-  plot.low = -aside - kRoom;
-  plot.high = aside + kRoom;
+  plot.low = -aside - kPlotRoom;
+  plot.high = aside + kPlotRoom;
   plot.curves.push_back({"towards the target", kLine, {0.0, *plot.right}, {0.0, 0.0}});
   const double reach = std::min(*plot.right, *plot.high / std::tan(toRadians(kBeside)));
   for (const double side : {-1.0, 1.0}) {
@@ -75,7 +72,7 @@ Plot fromAbove(const KickStatistics& kick) {
   return plot;
 }
 
-Plot fromTheSide(const KickStatistics& kick) {
+Plot fromTheSide(const KickMeasures& kick) {
   Plot plot = viewOf(kick, false);
   plot.title = "from the side, heights enlarged";
   plot.yLabel = "height of the centre, m";
@@ -92,11 +89,11 @@ Plot fromTheSide(const KickStatistics& kick) {
 
 }  // namespace
 
-std::string kickReportSvg(const KickStatistics& kick, const KickReportSettings& settings) {
+std::string kickReportSvg(const KickMeasures& kick, const KickReportSettings& settings) {
   const Plot above = fromAbove(kick);
   const Plot side = fromTheSide(kick);
-  const double width = kWidth - kPlotMargin.left - kPlotMargin.right;
-  const PlotBox box = trueToScale(above, kPlotMargin.left, kHead + kPlotMargin.top, width);
+  const double width = kPictureWidth - kPlotMargin.left - kPlotMargin.right;
+  const PlotBox box = trueToScale(above, kPlotMargin.left, kPictureHead + kPlotMargin.top, width);
   const double second = box.top + box.height + kPlotMargin.bottom + kPlotMargin.top;
   std::string svg = fmt::format(
       "<text x='14' y='22' font-size='15' font-weight='bold'>{}, robot type {}: {} kicks from {:.2g} m away, "
@@ -105,7 +102,7 @@ std::string kickReportSvg(const KickStatistics& kick, const KickReportSettings& 
       toDegrees(kick.directionError.mean));
   svg += drawLegend(legendOf(above), 14.0, 46.0);
   svg += drawPlot(above, box) + drawPlot(side, {box.left, second, width, kSideHeight});
-  return svgPicture(kWidth, second + kSideHeight + kPlotMargin.bottom, svg);
+  return svgPicture(kPictureWidth, second + kSideHeight + kPlotMargin.bottom, svg);
 }
 
 }  // namespace nonet::lab

@@ -37,9 +37,9 @@ double deviation(const std::vector<double>& sample) {
   return standardError(sample) * std::sqrt(static_cast<double>(sample.size()));
 }
 
-KickStatistics statisticsOf(const std::string& name, const motion::KickHead& head, std::vector<Kick> kicks,
-                            double asked) {
-  KickStatistics s;
+KickMeasures statisticsOf(const std::string& name, const motion::KickHead& head, std::vector<Kick> kicks,
+                          double asked) {
+  KickMeasures s;
   s.name = name;
   s.trials = static_cast<int>(kicks.size());
   if (head.isChip()) s.clears = 0.0;
@@ -96,13 +96,13 @@ std::vector<std::string> kickNames(const agent::AgentSettings& agent) {
   return names;
 }
 
-std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
+std::vector<KickMeasures> measureKicks(const KickReportSettings& settings) {
   const std::vector<std::string> known = kickNames(settings.agent);
   std::vector<std::string> names = {settings.kick};
   if (settings.kick == "all") {
     names = known;
   }
-  std::vector<KickStatistics> report;
+  std::vector<KickMeasures> report;
   const Random seeds(settings.seed);
   for (const std::string& name : names) {
     const motion::KickHead head = name == "any" ? motion::KickHead{} : kickHead(settings.agent, name);
@@ -127,12 +127,12 @@ std::vector<KickStatistics> measureKicks(const KickReportSettings& settings) {
   return report;
 }
 
-std::string kickReportTable(const std::vector<KickStatistics>& report) {
+std::string kickReportTable(const std::vector<KickMeasures>& report) {
   std::string out =
       fmt::format("{:<20} {:>7} {:>6} {:>6} {:>6} {:>9} | {:>6} {:>7} {:>6} {:>8} | {:>8} {:>6} {:>7}\n",
                   "kick", "trials", "falls", "fouls", "misses", "under 2 m", "mean m", "median", "p10",
                   "of asked", "off deg", "time s", "high m");
-  for (const KickStatistics& s : report) {
+  for (const KickMeasures& s : report) {
     out += fmt::format(
         "{:<20} {:>7} {:>5.1f}% {:>5.1f}% {:>5.1f}% {:>8.1f}% | {:>6.2f} {:>7.2f} {:>6.2f} {:>7.0f}% | "
         "{:>8.1f} "
@@ -142,21 +142,21 @@ std::string kickReportTable(const std::vector<KickStatistics>& report) {
         s.distance.mean, s.distance.median, s.distance.p10, 100.0 * s.reached.median,
         toDegrees(s.directionError.mean), s.time.mean, s.height.mean);
   }
-  for (const KickStatistics& s : report)
+  for (const KickMeasures& s : report)
     if (s.clears)
       out += fmt::format("{:<20} {:.1f}% high enough a metre on, and down soon enough\n", s.name,
                          100.0 * *s.clears);
   out += "fouls: the referee froze limbs that collided with the robot's own\n";
   out += "\nwhat the heads should say of the balls' flights:\n";
-  for (const KickStatistics& s : report)
+  for (const KickMeasures& s : report)
     out += fmt::format("{:<20} flies {:.2f}m at {:.1f}m within {:.2f}m\n", s.name, s.apex.median,
                        s.apexAt.median, s.apexSpread);
   return out;
 }
 
-std::string kickReportJson(const std::vector<KickStatistics>& report, const KickReportSettings& settings) {
+std::string kickReportJson(const std::vector<KickMeasures>& report, const KickReportSettings& settings) {
   nlohmann::ordered_json json;
-  for (const KickStatistics& s : report) {
+  for (const KickMeasures& s : report) {
     json[s.name] = {{"type", settings.agent.robotType},
                     {"trials", s.trials},
                     {"asked_m", settings.distance},

@@ -15,8 +15,6 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kWidth = 1000.0;
-constexpr double kHead = 60.0;   // of the picture, above the map
 constexpr double kBorder = 1.3;  // m around the field
 constexpr double kPlotHeight = 110.0;
 constexpr double kJump = 0.5;  // m between two messages: the robot was put somewhere else
@@ -30,7 +28,7 @@ struct Map {
   Vector2 corner = Vector2::Zero();  // upper left one, m
 
   double x(double metres) const { return scale * (metres - corner.x()); }
-  double y(double metres) const { return kHead + scale * (corner.y() - metres); }
+  double y(double metres) const { return kPictureHead + scale * (corner.y() - metres); }
 };
 
 std::string rectangle(const Map& map, double x, double y, double width, double height) {
@@ -131,7 +129,7 @@ Plot errorPlot(const std::string& what, const std::string& unit, const std::vect
 }
 
 std::string plots(const Plot& position, const Plot& heading, double top) {
-  const double width = kWidth - kPlotMargin.left - kPlotMargin.right;
+  const double width = kPictureWidth - kPlotMargin.left - kPlotMargin.right;
   const double second = top + kPlotMargin.top + kPlotHeight + kPlotMargin.bottom;
   return drawPlot(position, {kPlotMargin.left, top + kPlotMargin.top, width, kPlotHeight}) +
          drawPlot(heading, {kPlotMargin.left, second + kPlotMargin.top, width, kPlotHeight});
@@ -142,8 +140,8 @@ std::string plots(const Plot& position, const Plot& heading, double top) {
 std::string LocalizationReport::toSvg() const {
   Map map;
   map.corner = {-0.5 * field_.length - kBorder, 0.5 * field_.width + kBorder};
-  map.scale = kWidth / (field_.length + 2.0 * kBorder);
-  const double bottom = kHead + map.scale * (field_.width + 2.0 * kBorder);
+  map.scale = kPictureWidth / (field_.length + 2.0 * kBorder);
+  const double bottom = kPictureHead + map.scale * (field_.width + 2.0 * kBorder);
   std::vector<Vector2> truth;
   std::vector<Vector2> believed;
   std::vector<double> time;
@@ -168,7 +166,8 @@ std::string LocalizationReport::toSvg() const {
   if (!frames_.empty()) svg += times(map, time, truth);
   svg += plots(errorPlot("position", "m", time, position, s.position.p95),
                errorPlot("heading", "deg", time, heading, toDegrees(s.heading.p95)), bottom + 6.0);
-  return svgPicture(kWidth, bottom + 2.0 * (kPlotHeight + kPlotMargin.top + kPlotMargin.bottom) + 12.0, svg);
+  return svgPicture(kPictureWidth, bottom + 2.0 * (kPlotHeight + kPlotMargin.top + kPlotMargin.bottom) + 12.0,
+                    svg);
 }
 
 }  // namespace nonet::lab

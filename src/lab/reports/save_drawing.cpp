@@ -14,10 +14,8 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kWidth = 800.0;
-constexpr double kHead = 60.0;         // of the picture, above the plots
+constexpr double kSaveWidth = 800.0;
 constexpr double kFrontWidth = 520.0;  // of the goal seen from the field
-constexpr double kRoom = 0.5;          // m around
 constexpr const char* kSaved = "#2070a0";
 constexpr const char* kGoal = "#c03030";
 constexpr const char* kFrame = "#555";
@@ -38,7 +36,7 @@ Plot fromAbove(const SaveReport& report) {
   plot.legend = false;
   const double post = 0.5 * kField.goalWidth;
   double far = 3.0;
-  double aside = post + kRoom;
+  double aside = post + kPlotRoom;
   PlotDots goalie{"where the goalie stood at the shot", kFrame, {}, {}, 2.0};
   for (const Save& save : report.saves) {
     PlotCurve way{outcomeOf(save), colorOf(save), {}, {}};
@@ -56,11 +54,11 @@ Plot fromAbove(const SaveReport& report) {
   plot.dots.push_back(std::move(goalie));
   const double back = -kField.goalDepth;
   plot.curves.push_back({"goal", kFrame, {0.0, back, back, 0.0}, {post, post, -post, -post}, false, 2.0});
-  plot.curves.push_back({"", kFrame, {0.0, 0.0}, {-aside - kRoom, aside + kRoom}});
+  plot.curves.push_back({"", kFrame, {0.0, 0.0}, {-aside - kPlotRoom, aside + kPlotRoom}});
   plot.left = back - 0.2;
-  plot.right = far + kRoom;
-  plot.low = -aside - kRoom;
-  plot.high = aside + kRoom;
+  plot.right = far + kPlotRoom;
+  plot.low = -aside - kPlotRoom;
+  plot.high = aside + kPlotRoom;
   return plot;
 }
 
@@ -95,8 +93,8 @@ Plot fromTheField(const SaveReport& report) {
 std::string saveReportSvg(const SaveReport& report, const SaveReportSettings& settings) {
   const Plot above = fromAbove(report);
   const Plot front = fromTheField(report);
-  const PlotBox first = trueToScale(above, kPlotMargin.left, kHead + kPlotMargin.top,
-                                    kWidth - kPlotMargin.left - kPlotMargin.right);
+  const PlotBox first = trueToScale(above, kPlotMargin.left, kPictureHead + kPlotMargin.top,
+                                    kSaveWidth - kPlotMargin.left - kPlotMargin.right);
   const double legendAt = first.top + first.height + kPlotMargin.bottom + 20.0;
   const PlotBox second = trueToScale(front, kPlotMargin.left, legendAt + 14.0 + kPlotMargin.top, kFrontWidth);
   std::string svg = fmt::format(
@@ -106,7 +104,7 @@ std::string saveReportSvg(const SaveReport& report, const SaveReportSettings& se
       100.0 * report.rolling.savedShare(), 100.0 * report.flying.savedShare());
   svg += drawLegend(legendOf(above), 14.0, 46.0) + drawPlot(above, first);
   svg += drawLegend(legendOf(front), 14.0, legendAt) + drawPlot(front, second);
-  return svgPicture(kWidth, second.top + second.height + kPlotMargin.bottom, svg);
+  return svgPicture(kSaveWidth, second.top + second.height + kPlotMargin.bottom, svg);
 }
 
 }  // namespace nonet::lab

@@ -20,7 +20,6 @@ using model::JointId;
 constexpr int kColumns = 3;
 constexpr double kPanelWidth = 370.0;
 constexpr double kPanelHeight = 210.0;
-constexpr double kHead = 60.0;  // of the picture
 constexpr double kAfter = 0.3;  // s of the held posture that the joints' panels show
 constexpr const char* kTold = "#8ab4e8";
 constexpr const char* kDone = "#b04a00";
@@ -28,7 +27,7 @@ constexpr const char* kLimit = "#c03020";
 constexpr const char* kMark = "#888";
 
 double topOf(int row) {
-  return kHead + kPanelHeight * row;
+  return kPictureHead + kPanelHeight * row;
 }
 
 /// Degrees as the skill's text has them.

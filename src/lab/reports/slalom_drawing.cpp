@@ -14,10 +14,6 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kWidth = 1000.0;
-constexpr double kHead = 60.0;  // of the picture, above the plot
-constexpr double kRoom = 0.5;   // m around the ways
-
 // From the begin along the middle line, the first turn to the right, so that all trials fall together.
 class PathFrame {
  public:
@@ -63,28 +59,28 @@ std::string slalomSvg(const std::vector<Dribble>& slaloms, const BallReportSetti
     for (const Vector2& corner : slalom.path.corners) frame.add(corner, path);
   }
   plot.curves.push_back(std::move(path));
-  plot.left = -kRoom;
+  plot.left = -kPlotRoom;
   plot.right = 1.0;
   plot.low = -1.0;
   plot.high = 1.0;
   for (const PlotCurve& curve : plot.curves) {
     for (const double x : curve.x) {
-      plot.left = std::min(*plot.left, x - kRoom);
-      plot.right = std::max(*plot.right, x + kRoom);
+      plot.left = std::min(*plot.left, x - kPlotRoom);
+      plot.right = std::max(*plot.right, x + kPlotRoom);
     }
     for (const double y : curve.y) {
-      plot.low = std::min(*plot.low, y - kRoom);
-      plot.high = std::max(*plot.high, y + kRoom);
+      plot.low = std::min(*plot.low, y - kPlotRoom);
+      plot.high = std::max(*plot.high, y + kPlotRoom);
     }
   }
-  const PlotBox box = trueToScale(plot, kPlotMargin.left, kHead + kPlotMargin.top,
-                                  kWidth - kPlotMargin.left - kPlotMargin.right);
+  const PlotBox box = trueToScale(plot, kPlotMargin.left, kPictureHead + kPlotMargin.top,
+                                  kPictureWidth - kPlotMargin.left - kPlotMargin.right);
   const std::string head = fmt::format(
       "<text x='14' y='22' font-size='15' font-weight='bold'>The ball's ways in the slalom, robot type {}: "
       "{} "
       "trials, six turns of 60 degrees 2 m apart</text>\n",
       settings.agent.robotType, slaloms.size());
-  return svgPicture(kWidth, box.top + box.height + kPlotMargin.bottom,
+  return svgPicture(kPictureWidth, box.top + box.height + kPlotMargin.bottom,
                     head + drawLegend(legendOf(plot), 14.0, 46.0) + drawPlot(plot, box));
 }
 

@@ -11,7 +11,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr int kApproaches = 3;
-constexpr double kFall = 5.0;  // s
+constexpr double kApproachFall = 5.0;  // s
 
 class ApproachTask final : public Task {
  public:
@@ -33,7 +33,7 @@ class ApproachTask final : public Task {
     double cost = 0.0, arrived = 0.0, falls = 0.0;
     for (int i = 0; i < kApproaches; ++i) {
       const Approach approach = approachOnce(agent, server, random.next());
-      cost += approach.time + (approach.fell ? kFall : 0.0);
+      cost += approach.time + (approach.fell ? kApproachFall : 0.0);
       arrived += approach.arrived ? 1.0 : 0.0;
       falls += approach.fell ? 1.0 : 0.0;
     }

@@ -11,7 +11,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr int kAttacks = 10;
-constexpr double kFall = 0.1;
+constexpr double kAttackFall = 0.1;
 constexpr double kCharge = 0.2;
 
 class AttackTask final : public Task {
@@ -38,7 +38,7 @@ class AttackTask final : public Task {
       falls += attack.fell ? 1.0 : 0.0;
       charges += attack.charged ? 1.0 / kAttacks : 0.0;
     }
-    return {.fitness = worth - kFall * falls / kAttacks - kCharge * charges,
+    return {.fitness = worth - kAttackFall * falls / kAttacks - kCharge * charges,
             .measures = {{"goals", goals}, {"falls", falls}, {"charged", charges}}};
   }
 };

@@ -11,7 +11,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr int kDuels = 10;
-constexpr double kFall = 0.3;
+constexpr double kContestFall = 0.3;
 
 class ContestTask final : public Task {
  public:
@@ -28,7 +28,7 @@ class ContestTask final : public Task {
     const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(9);
     const DuelTally duels = fightDuels(kDuels, agent, opponent, server, random);
-    return {.fitness = duels.won - kFall * duels.falls / kDuels,
+    return {.fitness = duels.won - kContestFall * duels.falls / kDuels,
             .measures = {{"won", duels.won}, {"falls", duels.falls}}};
   }
 };

@@ -11,7 +11,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kAway = 2.0;  // m/s
-constexpr double kFall = 0.5;
+constexpr double kDribbleFall = 0.5;
 constexpr double kFoul = 0.5;
 
 class DribbleTask final : public Task {
@@ -42,7 +42,7 @@ class DribbleTask final : public Task {
 
  private:
   static double worth(const Dribble& dribble) {
-    return dribble.speed - kAway * dribble.away - (dribble.fell ? kFall : 0.0) -
+    return dribble.speed - kAway * dribble.away - (dribble.fell ? kDribbleFall : 0.0) -
            kFoul * dribble.selfCollisions;
   }
 };

@@ -8,8 +8,6 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kFallCost = 20.0;  // rising takes two seconds, in which others have the ball
-
 class DuelTask final : public CourseTask {
  public:
   using CourseTask::CourseTask;
@@ -24,7 +22,7 @@ class DuelTask final : public CourseTask {
 }  // namespace
 
 CourseSettings duelCourse() {
-  return {.set = motion::WalkSet::Positioning, .fallCost = kFallCost, .push = kDuelPush};
+  return {.set = motion::WalkSet::Positioning, .fallCost = kDearFall, .push = kDuelPush};
 }
 
 const Task& duelTask() {

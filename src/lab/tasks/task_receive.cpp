@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kPasses = 2;
 constexpr double kMostRebound = 1.0;  // m
-constexpr double kFall = 1.0;
+constexpr double kReceiveFall = 1.0;
 
 class ReceiveTask final : public Task {
  public:
@@ -31,7 +31,7 @@ class ReceiveTask final : public Task {
     double fitness = 0.0, held = 0.0, rebound = 0.0, falls = 0.0;
     for (int i = 0; i < kPasses; ++i) {
       const Reception pass = receiveOnce(agent, server, random.next());
-      fitness += (pass.held ? 1.0 : -std::min(pass.rebound, kMostRebound)) - (pass.fell ? kFall : 0.0);
+      fitness += (pass.held ? 1.0 : -std::min(pass.rebound, kMostRebound)) - (pass.fell ? kReceiveFall : 0.0);
       held += pass.held ? 1.0 : 0.0;
       rebound += pass.rebound;
       falls += pass.fell ? 1.0 : 0.0;

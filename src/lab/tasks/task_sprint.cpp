@@ -8,8 +8,6 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kFallCost = 20.0;  // most falls happen where the sprint ends: too few to be felt at 5
-
 class SprintTask final : public CourseTask {
  public:
   using CourseTask::CourseTask;
@@ -27,7 +25,7 @@ const Task& sprintTask() {
   static const SprintTask task("sprint",
                                "the course with the goToTarget set frozen; the sprint set runs straight "
                                "ahead; a fall costs 20 instead of 5",
-                               "motion.sprint.", {.fallCost = kFallCost});
+                               "motion.sprint.", {.fallCost = kDearFall});
   return task;
 }
 

@@ -8,7 +8,6 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kFallCost = 20.0;  // s
 constexpr double kUnsteadinessCost = 1.0;
 constexpr double kGivenUp = 300.0;  // s, for a course that was left after the last fall
 
@@ -30,7 +29,7 @@ TaskResult TimedCourseTask::evaluate(const agent::AgentParameters& parameters, s
   const double time = timed.falls < kMostFalls ? timed.time : kGivenUp - timed.distance;
   const int falls = timed.falls + limited.falls + changing.falls;
   const double unsteadiness = timed.unsteadiness + limited.unsteadiness + changing.unsteadiness;
-  return {.fitness = -time - kFallCost * falls - kUnsteadinessCost * unsteadiness,
+  return {.fitness = -time - kDearFall * falls - kUnsteadinessCost * unsteadiness,
           .measures = {{"time_s", timed.time},
                        {"falls", timed.falls},
                        {"falls_limited", limited.falls},

@@ -6,16 +6,10 @@
 
 namespace nonet::lab {
 
-namespace {
-
-constexpr double kFallCost = 20.0;
-
-}  // namespace
-
 const Task& surefootedTask() {
   static const CourseTask task(
       "surefooted", "the course of goToTarget with light pushes; a fall costs 20 instead of 5",
-      "motion.walk.", {.set = motion::WalkSet::GoToTarget, .fallCost = kFallCost, .push = kLightPush});
+      "motion.walk.", {.set = motion::WalkSet::GoToTarget, .fallCost = kDearFall, .push = kLightPush});
   return task;
 }
 

@@ -54,6 +54,9 @@ void startAt(const motion::WalkParameters& walk, motion::WalkParameters& set);
 // Who falls so often on a course learns nothing from the rest, and falls take long to simulate.
 constexpr int kMostFalls = 4;
 
+// A fall costs four times what it costs on the course of goToTarget: rising takes two seconds, in which
+// others have the ball, and most falls happen where a sprint ends, too few to be felt at 5.
+constexpr double kDearFall = 20.0;
 constexpr double kLightPush = 0.15;  // m/s, as one's own missteps and the ball give them
 constexpr double kDuelPush = 0.4;    // m/s, as others give them at a contested ball
 

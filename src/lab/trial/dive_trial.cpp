@@ -17,8 +17,8 @@ using motion::MotionRequest;
 constexpr double kSure = 0.01;        // m by which the ball must meet the robot
 constexpr double kLongestDive = 4.0;  // s
 constexpr double kLongestRise = 12.0;
-constexpr double kLasts = 0.6;    // s that a stand must last
-constexpr double kUpright = 0.2;  // rad
+constexpr double kDivedLasts = 0.6;  // s that a stand must last
+constexpr double kUpright = 0.2;     // rad
 
 /// A ball with its centre here touches one of the robot's parts.
 struct Disc {
@@ -73,7 +73,7 @@ void rise(RobotTrial& trial, Dive& dive) {
     dive.attempts = std::max(dive.attempts, trial.motion().fall().attempts());
     const bool up = trial.tilt() < kUpright && !trial.down() && !trial.motion().state().rising;
     if (!up) since = trial.time();
-    if (trial.time() - since < kLasts) continue;
+    if (trial.time() - since < kDivedLasts) continue;
     dive.stands = true;
     dive.riseTime = since - begin;
     return;

@@ -18,17 +18,17 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kMiss = 0.3;      // m
-constexpr double kShort = 2.0;     // m
-constexpr double kLasts = 2.0;     // s after contact that the robot must stand
-constexpr double kRollsOut = 8.0;  // s, for a ball that flies and bounces
+constexpr double kMiss = 0.3;         // m
+constexpr double kShort = 2.0;        // m
+constexpr double kKickedLasts = 2.0;  // s after contact that the robot must stand
+constexpr double kRollsOut = 8.0;     // s, for a ball that flies and bounces
 constexpr int kBearings = 10;
 
 // From the contact on: what the ball does, and whether the robot stays on its feet.
 void follow(KickStage& stage, const Vector2& from, const Pose2& X_WAim, Kick& kick) {
   const double contact = stage.time();
   BallFlight flight(from);
-  const double least = contact + kLasts;
+  const double least = contact + kKickedLasts;
   while (stage.time() < contact + kRollsOut) {
     stage.step();
     const world::BallMotion ball = stage.ball();

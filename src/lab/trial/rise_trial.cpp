@@ -13,9 +13,9 @@ using model::JointId;
 using motion::MotionRequest;
 using world::Posture;
 
-constexpr double kLongest = 12.0;  // s: the referee takes a field player away after 15 s on the ground
-constexpr double kLasts = 0.6;     // s that a stand must last
-constexpr double kTipped = 0.5;    // rad: from here on the robot falls
+constexpr double kLongestRise = 12.0;  // s: the referee takes a field player away after 15 s on the ground
+constexpr double kRisenLasts = 0.6;    // s that a stand must last
+constexpr double kTipped = 0.5;        // rad: from here on the robot falls
 
 bool matches(Posture posture, FallKind kind) {
   switch (kind) {
@@ -65,7 +65,7 @@ void rise(RobotTrial& trial, FallKind kind, Rise& result) {
   double standing = -1.0;
   bool wasRising = false;
   const double begin = trial.time();
-  while (trial.time() - begin < kLongest) {
+  while (trial.time() - begin < kLongestRise) {
     trial.step(MotionRequest{});
     const Posture posture = trial.belief().body.posture;
     if (lying < 0.0 && world::isFallen(posture)) lying = trial.time();
@@ -79,7 +79,7 @@ void rise(RobotTrial& trial, FallKind kind, Rise& result) {
     const bool up = lying >= 0.0 && !trial.down() && trial.tilt() < 0.2 && !trial.motion().state().rising;
     if (!up) standing = -1.0;
     if (up && standing < 0.0) standing = trial.time();
-    if (up && trial.time() - standing >= kLasts) {
+    if (up && trial.time() - standing >= kRisenLasts) {
       result.stands = true;
       result.time = standing - lying;
       return;

@@ -19,20 +19,20 @@ using model::kBallRadius;
 
 const Vector2 kGoal(-15.0, 0.0);  // the middle of the line
 constexpr double kHalfGoal = 1.05;
-constexpr double kClear = 0.02;      // m
-constexpr double kHighest = 0.75;    // m, of a shot at the line
-constexpr double kSlowest = 1.5;     // m/s, of a shot at the line
-constexpr double kLongest = 10.0;    // s from the shot to the line
-constexpr double kSettles = 1.0;     // s for which the goalie takes its place, at least
-constexpr double kWaits = 1.0;       // s that it then waits for the shot, at most
-constexpr double kAfter = 12.0;      // s from the shot to the end of the trial
-constexpr double kStands = 0.6;      // s that a stand must last
-constexpr double kUpright = 0.3;     // rad
-constexpr double kStopped = 0.3;     // m/s towards the line: a slower ball is no shot any more
-constexpr double kCalm = 0.5;        // s for which it must be that slow
-constexpr double kAway = 3.0;        // m from the middle of the goal: cleared
-constexpr double kBehindBall = 0.3;  // m, of the opponent
-constexpr double kMisplaced = 0.15;  // m
+constexpr double kClear = 0.02;        // m
+constexpr double kHighest = 0.75;      // m, of a shot at the line
+constexpr double kSlowest = 1.5;       // m/s, of a shot at the line
+constexpr double kLongestRoll = 10.0;  // s from the shot to the line
+constexpr double kSettles = 1.0;       // s for which the goalie takes its place, at least
+constexpr double kWaits = 1.0;         // s that it then waits for the shot, at most
+constexpr double kAfter = 12.0;        // s from the shot to the end of the trial
+constexpr double kStands = 0.6;        // s that a stand must last
+constexpr double kUpright = 0.3;       // rad
+constexpr double kStopped = 0.3;       // m/s towards the line: a slower ball is no shot any more
+constexpr double kCalm = 0.5;          // s for which it must be that slow
+constexpr double kClearedAway = 3.0;   // m from the middle of the goal: cleared
+constexpr double kBehindBall = 0.3;    // m, of the opponent
+constexpr double kMisplaced = 0.15;    // m
 
 Vector2 onCircle(double radius, double angle) {
   return radius * unitVector(angle);
@@ -134,14 +134,14 @@ class Watcher {
   GameTrial& trial_;
   Save& save_;
   double start_;
-  double downAt_ = -kLongest;
+  double downAt_ = -kLongestRoll;
   double comesAt_;
   bool over_ = false;
 };
 
 bool away(const GameTrial& trial) {
   const bool out = trial.simulation().match().playMode != protocol::PlayMode::PlayOn;
-  return out || (trial.ball().head<2>() - kGoal).norm() > kAway;
+  return out || (trial.ball().head<2>() - kGoal).norm() > kClearedAway;
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ std::optional<GoalLineCrossing> freeCrossing(const Shot& shot) {
   world.setBallPosition(shot.p_WB.cast<float>());
   world.setBallVelocity(shot.v_WB.cast<float>());
   Vector3 before = shot.p_WB;
-  for (double time = 0.0; time < kLongest; time += kCycleTime) {
+  for (double time = 0.0; time < kLongestRoll; time += kCycleTime) {
     world.prePhysics();
     world.stepPhysics();
     const Vector3 now = world.ballPosition().cast<double>();

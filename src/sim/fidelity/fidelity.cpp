@@ -47,7 +47,7 @@ void compareRobot(const World& world, RobotHandle robot, const RecordedRobot& tr
     raise(error.joints, std::abs(protocol::roundToWire(world.jointAngleDegrees(robot, joint)) - angle));
   }
   if (truth.gyro) {
-    raise(error.gyro, largest(onWire(toDegrees(world.gyro(robot))) - *truth.gyro));
+    raise(error.gyro, largest(onWire(inDegrees(world.gyro(robot))) - *truth.gyro));
   }
   if (truth.accelerometer) {
     raise(error.accelerometer, largest(onWire(world.accelerometer(robot)) - *truth.accelerometer));

@@ -12,7 +12,7 @@ inline Vector3 onWire(const Vector3f& v) {
   return {protocol::roundToWire(v.x()), protocol::roundToWire(v.y()), protocol::roundToWire(v.z())};
 }
 
-inline Vector3f toDegrees(const Vector3f& radians) {
+inline Vector3f inDegrees(const Vector3f& radians) {
   return {scene::toDegrees(radians.x()), scene::toDegrees(radians.y()), scene::toDegrees(radians.z())};
 }
 

@@ -20,7 +20,7 @@ using testing::Not;
 // The frame holds -0.5 m to 10 m in 926 units from 62 on, so 10 m lie at its right end and 4.75 m in the
 // middle.
 TEST(KickDrawing, HasBothViewsWithUnitsAndALegend) {
-  KickStatistics kicks;
+  KickMeasures kicks;
   kicks.name = "kick_power";
   kicks.trials = 2;
   kicks.kicks.resize(2);

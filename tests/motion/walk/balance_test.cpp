@@ -81,8 +81,8 @@ TEST(Balance, SwingFootLandsLevel) {
     Tilt tilt;
     (roll ? tilt.roll : tilt.pitch) = 0.3;
     const Attitude taken = swingLevel(p, tilt);
-    const Matrix3 R_GS = rotationOf({.pitch = tilt.pitch, .roll = tilt.roll}) *
-                         rotationOf({.pitch = -taken.pitch, .roll = -taken.roll});
+    const Matrix3 R_GS = rotationOf(Attitude{.pitch = tilt.pitch, .roll = tilt.roll}) *
+                         rotationOf(Attitude{.pitch = -taken.pitch, .roll = -taken.roll});
     EXPECT_TRUE(R_GS.isIdentity(1e-12));
   }
 }

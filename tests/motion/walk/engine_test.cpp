@@ -347,7 +347,7 @@ TEST(WalkEngine, LevelsTheFeetBelowATorsoThatTiltsFar) {
       const double beyond = tilt - std::clamp(tilt, -0.2, 0.2);
       const Vector3 axis = roll ? Vector3::UnitX() : Vector3::UnitY();
       for (const Side side : {Side::Left, Side::Right}) {
-        const std::size_t foot = index(side);
+        const std::size_t foot = motion::index(side);
         const Pose3& before = without.engine.trace().feet[foot];
         const Pose3 expected = Eigen::AngleAxisd(-beyond, axis) * before;
         const Pose3& after = with.engine.trace().feet[foot];
@@ -372,7 +372,7 @@ TEST(WalkEngine, StepsToWhereItFalls) {
       walker->run(Pose2{}, cycles);
     }
     const double beyond = tilt - std::clamp(tilt, -0.2, 0.2);
-    const std::size_t swing = index(model::other(with.engine.gait().stance));
+    const std::size_t swing = motion::index(model::other(with.engine.gait().stance));
     const Vector3 moved =
         with.engine.trace().feet[swing].translation() - without.engine.trace().feet[swing].translation();
     EXPECT_NEAR(moved.x(), 0.3 * beyond, 1e-9) << tilt;

@@ -13,7 +13,7 @@ namespace {
 using model::Side;
 
 // A gait that is asked for one speed in every cycle, without any feedback.
-struct Walker {
+struct GaitWalker {
   void step(const Pose2& speed, bool walk = true, double cycleTime = kCycleTime) {
     GaitInput input;
     input.cycleTime = cycleTime;
@@ -47,7 +47,7 @@ GaitParameters unbounded() {
 }
 
 TEST(Gait, StepSizeClosesItsGapAsAGeometricSeries) {
-  Walker walker;
+  GaitWalker walker;
   walker.parameters = unbounded();
   walker.parameters.deltaStepX = 0.15;
   walker.parameters.deltaStepY = 0.3;
@@ -62,8 +62,8 @@ TEST(Gait, StepSizeClosesItsGapAsAGeometricSeries) {
 }
 
 TEST(Gait, StepSizeAfterALostMessageIsThatOfTwoCycles) {
-  Walker single;
-  Walker twice;
+  GaitWalker single;
+  GaitWalker twice;
   single.parameters = twice.parameters = unbounded();
   for (int i = 0; i < 5; ++i) {
     single.run(Pose2(0.5, 0.2, 1.0), 2);
@@ -74,7 +74,7 @@ TEST(Gait, StepSizeAfterALostMessageIsThatOfTwoCycles) {
 }
 
 TEST(Gait, StepSizeGrowsByTheLargestChangeAtMost) {
-  Walker walker;
+  GaitWalker walker;
   walker.parameters = unbounded();
   walker.parameters.deltaStepX = 1.0;
   walker.parameters.maxChangeX = 0.003;
@@ -93,7 +93,7 @@ TEST(Gait, StepSizeGrowsByTheLargestChangeAtMost) {
 TEST(Gait, CombinedStepsStayWithinTheSet) {
   Random random(5);
   for (int k = 0; k < 40; ++k) {
-    Walker walker;
+    GaitWalker walker;
     const GaitParameters& p = walker.parameters;
     const Pose2 wish(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20));
     walker.run(wish, 300);
@@ -111,7 +111,7 @@ TEST(Gait, CombinedStepsStayWithinTheSet) {
 
 TEST(Gait, BalanceTakesItsShareOfTheStep) {
   for (const bool stumbles : {false, true}) {
-    Walker walker;
+    GaitWalker walker;
     walker.parameters = unbounded();
     walker.parameters.deltaStepX = 0.2;
     walker.run(Pose2(0.5, 0.0, 0.0), 200);
@@ -131,7 +131,7 @@ TEST(Gait, BalanceTakesItsShareOfTheStep) {
 }
 
 TEST(Gait, FeetTakeTurnsInWholeCycles) {
-  Walker walker;
+  GaitWalker walker;
   walker.parameters.stepDuration = 0.093;  // 4.65 cycles: five
   std::vector<int> changes;
   Side stance = Side::Left;
@@ -146,7 +146,7 @@ TEST(Gait, FeetTakeTurnsInWholeCycles) {
 
 // In a straight line each foot goes from half a step behind to half a step ahead, and back with the ground.
 TEST(Gait, FeetGoHalfAStepAheadAndBehind) {
-  Walker walker;
+  GaitWalker walker;
   const Pose2 speed(0.3, 0.0, 0.0);
   walker.run(speed, 300);
   const double step = walker.stepSize().translation.x();
@@ -165,7 +165,7 @@ TEST(Gait, FeetGoHalfAStepAheadAndBehind) {
 
 // A foot on the ground stays where it is, whatever the way of the walk frame.
 TEST(Gait, StanceFootDoesNotMoveOnTheGround) {
-  Walker walker;
+  GaitWalker walker;
   Random random(3);
   Pose2 X_FW;
   Pose2 ground;
@@ -190,7 +190,7 @@ TEST(Gait, StanceFootDoesNotMoveOnTheGround) {
 
 TEST(Gait, LiftsAsDeclared) {
   for (const double straightness : {0.0, 1.0}) {
-    Walker walker;
+    GaitWalker walker;
     walker.parameters.stepDuration = 0.4;
     walker.parameters.startLift = 0.5;
     walker.parameters.liftBegin = 0.2;
@@ -210,7 +210,7 @@ TEST(Gait, LiftsAsDeclared) {
 
 // Speeding up by a constant change of the step, and on a circle v w towards its centre.
 TEST(Gait, AccelerationIsThatOfTheWay) {
-  Walker walker;
+  GaitWalker walker;
   walker.parameters = unbounded();
   walker.parameters.deltaStepX = 1.0;
   walker.parameters.maxChangeX = 0.001;
@@ -225,7 +225,7 @@ TEST(Gait, AccelerationIsThatOfTheWay) {
 
 TEST(Gait, StepsToTheSideItLeansTo) {
   for (const double lean : {-0.3, 0.3}) {
-    Walker walker;
+    GaitWalker walker;
     GaitInput input;
     input.cycleTime = kCycleTime;
     input.leanToLeft = lean;
@@ -241,7 +241,7 @@ TEST(Gait, StepsToTheSideItLeansTo) {
 // It comes to a stand as soon as it is calm, and after a while even when it is not.
 TEST(Gait, StandsWhenCalm) {
   const auto cyclesToStand = [](bool calm) {
-    Walker walker;
+    GaitWalker walker;
     walker.run(Pose2(0.1, 0.0, 0.0), 50);
     GaitInput input;
     input.cycleTime = kCycleTime;

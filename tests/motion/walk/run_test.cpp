@@ -12,7 +12,7 @@ namespace {
 using model::JointId;
 using model::Side;
 
-GaitState stepping(double phase, Side stance = Side::Left) {
+GaitState running(double phase, Side stance = Side::Left) {
   GaitState gait;
   gait.standing = false;
   gait.phase = phase;
@@ -21,7 +21,7 @@ GaitState stepping(double phase, Side stance = Side::Left) {
   return gait;
 }
 
-RunParameters parameters() {
+RunParameters runParameters() {
   RunParameters p;
   p.hipRoll = {.mean = 0.02, .cos1 = 0.05, .sin1 = -0.04, .cos2 = 0.01, .sin2 = 0.03};
   p.knee = {.mean = -0.1, .cos1 = 0.2, .sin1 = 0.1, .cos2 = -0.05, .sin2 = 0.02};
@@ -30,7 +30,7 @@ RunParameters parameters() {
 
 model::JointArray changed(const GaitState& gait, double share) {
   model::JointArray angles{};
-  addRun(parameters(), gait, share, model::robotModel(0), angles);
+  addRun(runParameters(), gait, share, model::robotModel(0), angles);
   return angles;
 }
 
@@ -50,26 +50,26 @@ TEST(Run, SwingIsAFourierSumOfTheStride) {
 // What one leg does in its stance the other does in the next step, with rolls mirrored.
 TEST(Run, SidesMoveAlikeHalfAStrideApart) {
   for (const double phase : {0.2, 0.6, 1.0}) {
-    const auto left = changed(stepping(phase, Side::Left), 1.0);
-    const auto right = changed(stepping(phase, Side::Right), 1.0);
+    const auto left = changed(running(phase, Side::Left), 1.0);
+    const auto right = changed(running(phase, Side::Right), 1.0);
     EXPECT_NEAR(angleOf(left, JointId::LLeg4), angleOf(right, JointId::RLeg4), 1e-12);
     EXPECT_NEAR(angleOf(left, JointId::RLeg4), angleOf(right, JointId::LLeg4), 1e-12);
     EXPECT_NEAR(angleOf(left, JointId::LLeg2), -angleOf(right, JointId::RLeg2), 1e-12);
-    EXPECT_NEAR(angleOf(left, JointId::LLeg4), parameters().knee.at(0.5 * phase), 1e-12);
+    EXPECT_NEAR(angleOf(left, JointId::LLeg4), runParameters().knee.at(0.5 * phase), 1e-12);
   }
 }
 
 TEST(Run, ChangesInProportionToItsShare) {
-  const auto whole = changed(stepping(0.4), 1.0);
-  const auto third = changed(stepping(0.4), 1.0 / 3.0);
+  const auto whole = changed(running(0.4), 1.0);
+  const auto third = changed(running(0.4), 1.0 / 3.0);
   for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_NEAR(third[i], whole[i] / 3.0, 1e-12);
-  EXPECT_EQ(changed(stepping(0.4), 0.0), model::JointArray{});
+  EXPECT_EQ(changed(running(0.4), 0.0), model::JointArray{});
 }
 
 TEST(Run, ShareFollowsTheStep) {
   GaitParameters p;
   p.maxStepX = 0.2;
-  GaitState gait = stepping(0.4);
+  GaitState gait = running(0.4);
   EXPECT_NEAR(runShare(p, gait), 0.5, 1e-12);
   gait.step.translation.x() = 0.3;
   EXPECT_EQ(runShare(p, gait), 1.0);

@@ -34,7 +34,7 @@ struct KickFigure {
   double p10 = 0.0;  // a tenth of the kicks is below
 };
 
-struct KickStatistics {
+struct KickMeasures {
   std::string name;
   int trials = 0;
   KickFigure distance;           // m towards the target; a miss counts with what it made
@@ -58,10 +58,10 @@ struct KickStatistics {
 std::vector<std::string> kickNames(const agent::AgentSettings& agent);
 
 /// One entry per kick. Throws std::runtime_error for a kick that this robot cannot do.
-std::vector<KickStatistics> measureKicks(const KickReportSettings& settings);
-std::string kickReportTable(const std::vector<KickStatistics>& report);
-std::string kickReportJson(const std::vector<KickStatistics>& report, const KickReportSettings& settings);
+std::vector<KickMeasures> measureKicks(const KickReportSettings& settings);
+std::string kickReportTable(const std::vector<KickMeasures>& report);
+std::string kickReportJson(const std::vector<KickMeasures>& report, const KickReportSettings& settings);
 /// The balls' ways from above and from the side.
-std::string kickReportSvg(const KickStatistics& kick, const KickReportSettings& settings);
+std::string kickReportSvg(const KickMeasures& kick, const KickReportSettings& settings);
 
 }  // namespace nonet::lab
