@@ -6,13 +6,13 @@
 namespace nonet::team {
 
 bool atMostTwoPlay(const world::WorldState& world) {
-  int opponents = 0;
+  int others = 0;
   for (int unum = 1; unum <= world::kTeamSize; ++unum) {
     const auto index = static_cast<std::size_t>(unum);
-    if (unum != world.game.unum && world.teammates[index].known) return false;
-    if (world.opponents[index].known) ++opponents;
+    if (unum != world.game.unum && world.teammates[index].known) ++others;
+    if (world.opponents[index].known) ++others;
   }
-  return opponents <= 1;
+  return others <= 1;
 }
 
 void TouchWatch::update(const world::WorldState& world) {

@@ -244,8 +244,4 @@ std::vector<Pose2> WorldModel::particles() const {
   return poses;
 }
 
-const Localization& WorldModel::localization() const {
-  return stages_->localization;
-}
-
 }  // namespace nonet::world

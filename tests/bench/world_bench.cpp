@@ -7,6 +7,7 @@
 
 #include "nonet/protocol/log_file.h"
 #include "nonet/protocol/percept_text.h"
+#include "nonet/world/localization.h"
 #include "nonet/world/world_model.h"
 
 namespace nonet::world {

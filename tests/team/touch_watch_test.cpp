@@ -47,6 +47,18 @@ TEST_F(Scene, TheTakerOfAnOwnSetPieceIsBannedUntilAnotherTouches) {
   }
 }
 
+// Otherwise a goalie and one more would look at the ball after their kick-off for ever.
+TEST_F(Scene, OfTwoWhoAreAloneTheTakerOfTheKickOffGoesOn) {
+  for (const bool opponent : {false, true}) {
+    world.teammates[6].known = false;
+    place(world.teammates[1], -14.0, 0.0);
+    world.opponents[8].known = opponent;
+    play(world::Phase::OwnKickOff, 2.0);
+    play(world::Phase::PlayOn, 0.1);
+    EXPECT_EQ(watch.banned(), opponent ? 9 : 0) << "the rule is for more than two";
+  }
+}
+
 TEST_F(Scene, AnOpponentThatTouchesEndsTheBan) {
   play(world::Phase::OwnFreeKick, 3.0);
   play(world::Phase::PlayOn, 0.2);

@@ -8,8 +8,8 @@
 
 namespace nonet::team {
 
-/// Nobody but one opponent is known, as in a penalty shoot-out: who takes the kick-off may go on with the
-/// ball (server facts 4.3).
+/// One other player is known at most, an opponent as in a penalty shoot-out or a mate: who takes the kick-off
+/// may go on with the ball (server facts 4.3).
 bool atMostTwoPlay(const world::WorldState& world);
 
 class TouchWatch {

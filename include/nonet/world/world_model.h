@@ -8,7 +8,6 @@
 #include "nonet/math/pose2.h"
 #include "nonet/model/robot_model.h"
 #include "nonet/protocol/percept.h"
-#include "nonet/world/localization.h"
 #include "nonet/world/parameters.h"
 #include "nonet/world/world_state.h"
 
@@ -26,8 +25,6 @@ class WorldModel {
 
   const WorldState& state() const;
 
-  /// For measurements.
-  const Localization& localization() const;
   /// Where the particle filter holds the robot possible (own field frame), for drawings.
   std::vector<Pose2> particles() const;
 

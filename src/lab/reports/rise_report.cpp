@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "nonet/math/random.h"
+
 #include "lab/common/parallel.h"
 
 namespace nonet::lab {

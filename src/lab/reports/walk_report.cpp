@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nonet/math/direction.h"
+#include "nonet/math/random.h"
 
 #include "lab/common/parallel.h"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "nonet/lab/trial/dive_trial.h"
+#include "nonet/math/random.h"
 
 #include "lab/tasks/tasks.h"
 

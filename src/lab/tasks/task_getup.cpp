@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "nonet/lab/trial/rise_trial.h"
+#include "nonet/math/random.h"
 
 #include "lab/tasks/tasks.h"
 

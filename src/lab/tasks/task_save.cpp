@@ -1,6 +1,7 @@
 // save: the share of seeded shots that the whole agent saves (lab/trial/save_trial.h), and that it is on its
 // feet afterwards.
 #include "nonet/lab/trial/save_trial.h"
+#include "nonet/math/random.h"
 
 #include "lab/tasks/tasks.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "nonet/math/random.h"
 #include "nonet/model/ball.h"
 
 namespace nonet::lab {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "nonet/math/random.h"
 #include "nonet/sim/referee/self_collision.h"
 
 namespace nonet::lab {

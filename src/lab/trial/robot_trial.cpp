@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nonet/lab/trial/true_pose.h"
+#include "nonet/math/random.h"
 #include "nonet/model/ball.h"
 #include "nonet/protocol/rounding.h"
 #include "nonet/sim/sensors/sensors.h"
@@ -24,7 +25,7 @@ TrialSettings trialSettings(const agent::AgentSettings& settings) {
 
 struct RobotTrial::Implementation {
   explicit Implementation(const TrialSettings& setup)
-      : physics(setup.physics), handle(physics.addRobot(setup.robotType)), robot(setup), random(setup.seed) {
+      : physics(setup.physics), handle(physics.addRobot(setup.robotType)), robot(setup) {
     blind.vision = false;
     physics.setBallPosition({0.0F, -9.0F, static_cast<float>(model::kBallRadius)});
   }
@@ -54,7 +55,6 @@ struct RobotTrial::Implementation {
   sim::World physics;
   sim::RobotHandle handle;
   agent::Robot robot;
-  Random random;
   // Without vision the sensors use neither calibration nor noise.
   sim::AgentSensors sensors{sim::Vector3f(sim::Vector3f::Zero())};
   sim::SensorContext blind;
@@ -151,13 +151,6 @@ const protocol::Percept& RobotTrial::percept() const {
 }
 const model::RobotModel& RobotTrial::model() const {
   return implementation_->robot.model();
-}
-Random& RobotTrial::random() {
-  return implementation_->random;
-}
-
-std::vector<std::uint8_t> RobotTrial::savePhysics() const {
-  return implementation_->physics.save();
 }
 void RobotTrial::restorePhysics(std::span<const std::uint8_t> state) {
   implementation_->physics.restore(state);

@@ -7,6 +7,7 @@
 #include "nonet/lab/trial/push.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/math/random.h"
 #include "nonet/model/ball.h"
 
 namespace nonet::lab {

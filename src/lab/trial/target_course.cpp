@@ -9,6 +9,7 @@
 #include "nonet/lab/trial/push.h"
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/math/random.h"
 
 #include "lab/common/parallel.h"
 

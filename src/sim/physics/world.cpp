@@ -29,9 +29,6 @@ World::Implementation::~Implementation() {
 World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>(settings)) {}
 World::~World() = default;
 
-const WorldSettings& World::settings() const {
-  return implementation_->settings;
-}
 double World::time() const {
   return static_cast<double>(implementation_->cycles) * kCycleTime;
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/math/random.h"
 #include "nonet/sim/simulation.h"
 
 #include "motion/trial_setup.h"

@@ -4,6 +4,7 @@
 
 #include "nonet/lab/reports/walk_report.h"
 #include "nonet/lab/trial/robot_trial.h"
+#include "nonet/math/random.h"
 
 #include "motion/trial_setup.h"
 

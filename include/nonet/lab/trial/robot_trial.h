@@ -9,10 +9,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "nonet/agent/agent.h"
-#include "nonet/math/random.h"
 #include "nonet/sim/physics/world.h"
 
 namespace nonet::lab {
@@ -60,10 +58,8 @@ class RobotTrial {
   /// The message of the last cycle.
   const protocol::Percept& percept() const;
   const model::RobotModel& model() const;
-  Random& random();
 
-  // -- snapshots: the physics; the robot's mind starts afresh
-  std::vector<std::uint8_t> savePhysics() const;
+  /// The physics as World::save wrote them; the robot's mind starts afresh.
   void restorePhysics(std::span<const std::uint8_t> state);
 
  private:

@@ -89,7 +89,6 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  const WorldSettings& settings() const;
   double time() const;  // s of simulated physics
 
   // -- robots
