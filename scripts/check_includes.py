@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Checks the include rules. A file of include/nonet/<module> or src/<module> may include headers of its own module
-and of the modules that MODULES allows. Where PARTS has the module, the same holds for its sub-folders."""
+and of the modules that MODULES allows. Where PARTS has the module, the same holds for its sub-folders. A namespace has
+one type of a name at most, anywhere in the project: no compiler sees two that are never included together, and the linker
+takes the functions of one for both."""
 import pathlib
 import re
 import sys
@@ -44,6 +46,8 @@ PARTS = {
     },
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
+NAMESPACE = re.compile(r"^(?:inline )?namespace ?([\w:]*) ?\{|^\}  // namespace")
+TYPE = re.compile(r"^(?:template <.*> )?(?:struct|class|union|enum class|enum) (\w+)(?: final)?(?: :[^;]*)? \{")
 
 
 def place(parts):
@@ -97,14 +101,33 @@ def problems_in(path, relative, root):
     return found
 
 
+def types_in(text):
+    """Line and full name of each type that is defined right in a named namespace."""
+    spaces, found = [], []
+    for number, line in enumerate(text.splitlines(), 1):
+        space = NAMESPACE.match(line)
+        if space and space.group(0).startswith("}"):
+            del spaces[-1:]
+        elif space:
+            spaces.append(space.group(1))
+        match = TYPE.match(line)
+        if match and all(spaces):
+            found.append((number, "::".join([*spaces, match.group(1)])))
+    return found
+
+
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent
-    found, files = [], 0
+    found, files, types = [], 0, {}
     for folder in ("include/nonet", "src"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (".h", ".cpp") and path.is_file():
                 files += 1
                 problems = problems_in(path, path.relative_to(root / folder), root)
+                for line, name in types_in(path.read_text(encoding="utf-8")):
+                    first = types.setdefault(name, f"{path.relative_to(root)}:{line}")
+                    if first != f"{path.relative_to(root)}:{line}":
+                        problems.append((line, f"{name} stands in {first} as well"))
                 found += [f"{path.relative_to(root)}:{line}: {problem}" for line, problem in problems]
     for problem in found:
         print(problem)
