@@ -124,11 +124,12 @@ def main():
             if path.suffix in (".h", ".cpp") and path.is_file():
                 files += 1
                 problems = problems_in(path, path.relative_to(root / folder), root)
+                here = path.relative_to(root)
                 for line, name in types_in(path.read_text(encoding="utf-8")):
-                    first = types.setdefault(name, f"{path.relative_to(root)}:{line}")
-                    if first != f"{path.relative_to(root)}:{line}":
-                        problems.append((line, f"{name} stands in {first} as well"))
-                found += [f"{path.relative_to(root)}:{line}: {problem}" for line, problem in problems]
+                    if name in types:
+                        problems.append((line, f"{name} stands in {types[name]} as well"))
+                    types.setdefault(name, f"{here}:{line}")
+                found += [f"{here}:{line}: {problem}" for line, problem in problems]
     for problem in found:
         print(problem)
     print(f"check: includes {'ok' if not found else 'BAD'} ({files} files, {len(found)} problems)")

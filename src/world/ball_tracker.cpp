@@ -25,7 +25,6 @@ constexpr double kPutSigma = 0.2;      // m, of where it crossed the touch line
 constexpr double kGrace = 0.3;         // s without a sighting before the growth begins
 constexpr double kKnownSigma = 1.2;    // m
 constexpr double kKnownAge = 8.0;      // s
-constexpr int kAbsencesToForgetBall = 3;
 
 }  // namespace
 
@@ -87,7 +86,7 @@ void BallTracker::see(const protocol::Vision& vision, const SelfState& self, con
     if (!started_) return;
     const Vector3 p_CB = self.X_FC.inverse() * Vector3(state_(0), state_(1), height_);
     absences_ = clearlyInView(p_CB, 0.0) ? absences_ + 1 : 0;
-    if (absences_ >= kAbsencesToForgetBall) started_ = false;
+    if (absences_ >= kAbsencesToForget) started_ = false;
     return;
   }
   absences_ = 0;

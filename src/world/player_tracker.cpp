@@ -24,7 +24,6 @@ constexpr double kOwnSpeed = 0.6;           // s for which the speed that one sa
 constexpr double kJump = 1.5;               // m, farther than any player walks between two sightings
 constexpr double kRoom = 0.3;               // m around a player in which its parts are, beside two sigmas
 constexpr double kMiddle = 0.3;             // m, height of a player's middle
-constexpr int kAbsencesToForgetPlayer = 3;
 
 std::size_t at(BodyPart part) {
   return static_cast<std::size_t>(part);
@@ -161,7 +160,7 @@ void PlayerTracker::missOpponents(WorldState& state) {
         player.known && player.lastSighted < state.time && clearlyInView(p_CP, kRoom + 2.0 * player.sigma);
     absences_[i] = missed ? absences_[i] + 1 : 0;
     if (missed) missed_[i] = state.time;
-    if (absences_[i] >= kAbsencesToForgetPlayer) player.known = false;
+    if (absences_[i] >= kAbsencesToForget) player.known = false;
   }
 }
 

@@ -47,7 +47,7 @@ TEST_F(Scene, TheTakerOfAnOwnSetPieceIsBannedUntilAnotherTouches) {
   }
 }
 
-// Otherwise a goalie and one more would look at the ball after their kick-off for ever.
+// Otherwise a goalie and one more would stand at the ball after their kick-off until the ban runs out.
 TEST_F(Scene, OfTwoWhoAreAloneTheTakerOfTheKickOffGoesOn) {
   for (const bool opponent : {false, true}) {
     world.teammates[6].known = false;

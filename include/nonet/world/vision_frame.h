@@ -33,6 +33,8 @@ struct ObservedPoint {
 /// Comfortably inside the view, with all that is within `room` (m) of it: there it must be seen, since
 /// nothing hides anything (server facts 2.7).
 bool clearlyInView(const Vector3& p_CP, double room);
+/// What was so often in a row clearly in view and not seen is not there any more.
+inline constexpr int kAbsencesToForget = 3;
 
 struct ObservedLandmark {
   protocol::Landmark id = protocol::Landmark::F1L;
