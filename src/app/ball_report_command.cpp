@@ -63,14 +63,14 @@ int run(const BallReportArguments& arguments) {
 void addBallReportCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("ball-report",
                                          "Measure seeded ball skills: approach, dribble, slalom, drive, "
-                                         "duel, attack, scrum, receive, run with its stop");
+                                         "duel, attack, scrum, loose ball, receive, run with its stop");
   const auto arguments = std::make_shared<BallReportArguments>();
   lab::BallReportSettings& settings = arguments->settings;
   addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--skill", settings.skill, "One of them, or all");
   command->add_option(
       "--opponent-data", arguments->opponentData,
-      "The same for the opponents in duel, attack and scrum; without it: that of --data, without --set");
+      "The same for the opponents in duel, attack, scrum and loose; without it: that of --data, without --set");
   command->add_option("--trials", settings.trials, "Trials of each skill")->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", settings.threads, "Threads, 0 = all processors");

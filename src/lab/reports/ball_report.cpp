@@ -144,19 +144,20 @@ BallSkillReport measureAttack(const BallReportSettings& s, const sim::Settings& 
            "attack_s", "s until the goal", trials, [](const auto& t) { return t.simulated; }, goal)});
 }
 
-BallSkillReport measureScrum(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials =
-      repeated(s, "scrum", [&](auto seed) { return scrumOnce(s.agent, s.opponent, server, seed); });
-  const auto row = [&](const char* key, const char* what, double Scrum::*value) {
-    return figure(key, what, trials, [value](const Scrum& t) { return t.*value; });
+BallSkillReport measureScrum(ScrumBall ball, const BallReportSettings& s, const sim::Settings& server) {
+  const std::string name = ball == ScrumBall::Loose ? "loose" : "scrum";
+  const auto trials = repeated(s, name.c_str(),
+                               [&](auto seed) { return scrumOnce(ball, s.agent, s.opponent, server, seed); });
+  const auto row = [&](const std::string& key, const char* what, double Scrum::*value) {
+    return figure((name + key).c_str(), what, trials, [value](const Scrum& t) { return t.*value; });
   };
-  return reportOf("scrum", trials,
-                  {row("scrum_m", "m gained by three against three", &Scrum::gained),
-                   row("scrum_territory_m", "m, the same over the time", &Scrum::territory),
-                   row("scrum_falls", "falls of the three", &Scrum::falls),
-                   row("scrum_opponent_falls", "falls of the others", &Scrum::opponentFalls),
-                   row("scrum_charges", "of the three that charge", &Scrum::charges),
-                   row("scrum_opponent_charges", "of the others", &Scrum::opponentCharges)});
+  return reportOf(name.c_str(), trials,
+                  {row("_m", "m gained by three against three", &Scrum::gained),
+                   row("_territory_m", "m, the same over the time", &Scrum::territory),
+                   row("_falls", "falls of the three", &Scrum::falls),
+                   row("_opponent_falls", "falls of the others", &Scrum::opponentFalls),
+                   row("_charges", "of the three that charge", &Scrum::charges),
+                   row("_opponent_charges", "of the others", &Scrum::opponentCharges)});
 }
 
 BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Settings& server) {
@@ -185,7 +186,8 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
   if (skill == "drive") return measureDrive(s, server);
   if (skill == "duel") return measureDuel(s, server);
   if (skill == "attack") return measureAttack(s, server);
-  if (skill == "scrum") return measureScrum(s, server);
+  if (skill == "scrum") return measureScrum(ScrumBall::Contested, s, server);
+  if (skill == "loose") return measureScrum(ScrumBall::Loose, s, server);
   if (skill == "receive") return measureReceiving(s, server);
   if (skill == "run") return measureRun(s, server);
   throw std::runtime_error(
@@ -195,7 +197,7 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
 }  // namespace
 
 std::vector<std::string> ballSkillNames() {
-  return {"approach", "dribble", "slalom", "drive", "duel", "attack", "scrum", "receive", "run"};
+  return {"approach", "dribble", "slalom", "drive", "duel", "attack", "scrum", "loose", "receive", "run"};
 }
 
 BallReport measureBallSkills(const BallReportSettings& settings) {

@@ -31,7 +31,7 @@ class ScrumTask final : public Task {
     Random random = Random(seed).fork(9);
     double gained = 0.0, falls = 0.0, charges = 0.0;
     for (int i = 0; i < kScrums; ++i) {
-      const Scrum scrum = scrumOnce(agent, opponent, server, random.next());
+      const Scrum scrum = scrumOnce(ScrumBall::Contested, agent, opponent, server, random.next());
       gained += scrum.gained / kScrums;
       falls += scrum.falls / kScrums;
       charges += scrum.charges / kScrums;

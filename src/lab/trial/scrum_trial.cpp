@@ -26,7 +26,11 @@ struct Ring {          // where a robot stands from the ball
   double least, most;  // m
   double wide;         // rad to either side of its own goal's direction
 };
-constexpr std::array<Ring, kPerSide> kRings = {{{0.4, 1.5, 1.3}, {0.9, 2.6, 2.0}, {0.9, 2.6, 2.0}}};
+using Rings = std::array<Ring, kPerSide>;
+constexpr Rings kAroundContested = {{{0.4, 1.5, 1.3}, {0.9, 2.6, 2.0}, {0.9, 2.6, 2.0}}};
+constexpr Rings kAroundLoose = {{{0.8, 2.5, kPi}, {1.2, 4.0, kPi}, {1.2, 4.0, kPi}}};
+constexpr double kLeastSpeed = 0.5;  // m/s, of a loose ball
+constexpr double kMostSpeed = 3.0;   // m/s
 
 using Places = std::array<Pose2, 2 * kPerSide>;  // the left side's first
 
@@ -46,11 +50,11 @@ void moveApart(Places& places) {
   }
 }
 
-Places drawPlaces(const Vector2& ball, Random& random) {
+Places drawPlaces(const Vector2& ball, const Rings& rings, Random& random) {
   Places places;
   const double turned = random.uniform(-kTurned, kTurned);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Ring& ring = kRings[i % kPerSide];
+    const Ring& ring = rings[i % kPerSide];
     const double side = i < kPerSide ? -1.0 : 1.0;
     const double distance = random.uniform(ring.least, ring.most);
     const double from = turned + random.uniform(-ring.wide, ring.wide);
@@ -86,9 +90,10 @@ int foulers(const GameTrial& game, std::size_t side, sim::FoulType type) {
 }
 
 struct Begin {
-  Vector2 ball;
+  Vector2 ball = Vector2::Zero();      // m
+  Vector2 velocity = Vector2::Zero();  // m/s
   Places places;
-  std::uint64_t noise;
+  std::uint64_t noise = 0;
 };
 
 // Once, with `agent` on the side `own`: 0 the left one.
@@ -97,6 +102,7 @@ void play(const agent::AgentSettings& agent, const agent::AgentSettings& opponen
   const Vector2& ball = begin.ball;
   GameSituation situation;
   situation.ball = ball;
+  situation.ballVelocity = begin.velocity;
   for (std::size_t i = 0; i < begin.places.size(); ++i) {
     const std::size_t side = i / kPerSide;
     GamePlayer player{side == own ? agent : opponent, side == 1, begin.places[i], {}};
@@ -125,13 +131,19 @@ void play(const agent::AgentSettings& agent, const agent::AgentSettings& opponen
 
 }  // namespace
 
-Scrum scrumOnce(const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
+Scrum scrumOnce(ScrumBall kind, const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
                 const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   const double along = random.uniform(-kAlong, kAlong);
-  const Vector2 ball(along, random.uniform(-kAcross, kAcross));
-  const Places places = drawPlaces(ball, random);
-  const Begin begin{ball, places, random.next()};
+  Begin begin;
+  begin.ball = Vector2(along, random.uniform(-kAcross, kAcross));
+  const bool loose = kind == ScrumBall::Loose;
+  begin.places = drawPlaces(begin.ball, loose ? kAroundLoose : kAroundContested, random);
+  if (loose) {
+    const double speed = random.uniform(kLeastSpeed, kMostSpeed);
+    begin.velocity = speed * unitVector(random.uniform(-kPi, kPi));
+  }
+  begin.noise = random.next();
   Scrum scrum;
   for (const std::size_t own : {0U, 1U}) play(agent, opponent, own, begin, settings, scrum);
   return scrum;

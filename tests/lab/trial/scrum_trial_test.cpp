@@ -13,7 +13,7 @@ TEST(ScrumTrial, EqualsGainNothing) {
   const agent::AgentSettings agent = agentOfType(2);
   bool moved = false;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Scrum scrum = scrumOnce(agent, agent, quick(), seed);
+    const Scrum scrum = scrumOnce(ScrumBall::Contested, agent, agent, quick(), seed);
     EXPECT_NEAR(scrum.gained, 0.0, 1e-9);
     EXPECT_NEAR(scrum.territory, 0.0, 1e-9);
     EXPECT_EQ(scrum.falls, scrum.opponentFalls);
@@ -26,14 +26,22 @@ TEST(ScrumTrial, EqualsGainNothing) {
   EXPECT_TRUE(moved);
 }
 
+TEST(ScrumTrial, ALooseBallIsFairToo) {
+  const agent::AgentSettings agent = agentOfType(2);
+  const Scrum scrum = scrumOnce(ScrumBall::Loose, agent, agent, quick(), 4);
+  EXPECT_NEAR(scrum.gained, 0.0, 1e-9);
+  EXPECT_EQ(scrum.falls, scrum.opponentFalls);
+  EXPECT_GT(scrum.simulated, 2.0);
+}
+
 TEST(ScrumTrial, WhoCannotWalkLosesGround) {
   const agent::AgentSettings lame = lameAgent(2);
   const agent::AgentSettings agent = agentOfType(2);
   double gained = 0.0;
   double lost = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    gained += 0.25 * scrumOnce(agent, lame, quick(), seed).gained;
-    lost += 0.25 * scrumOnce(lame, agent, quick(), seed).gained;
+    gained += 0.25 * scrumOnce(ScrumBall::Contested, agent, lame, quick(), seed).gained;
+    lost += 0.25 * scrumOnce(ScrumBall::Contested, lame, agent, quick(), seed).gained;
   }
   EXPECT_GT(gained, 2.0);
   EXPECT_NEAR(lost, -gained, 1e-9);  // the same scrums, seen from the other side

@@ -14,7 +14,7 @@ namespace nonet::lab {
 
 struct BallReportSettings {
   agent::AgentSettings agent;
-  agent::AgentSettings opponent;  // in the duel, before the goal and in the scrum
+  agent::AgentSettings opponent;  // in the duel, before the goal and in scrums
   agent::AgentSettings goalie;    // the opponents'
   std::string skill = "all";      // or one of ballSkillNames()
   int trials = 50;                // of each skill
@@ -46,7 +46,7 @@ struct BallReport {
   std::vector<Dribble> slaloms;  // for the picture
 };
 
-/// approach, dribble, slalom, drive, duel, attack, scrum, receive, run.
+/// approach, dribble, slalom, drive, duel, attack, scrum, loose, receive, run.
 std::vector<std::string> ballSkillNames();
 
 /// Throws std::runtime_error that names the skills if the one wanted is unknown.
