@@ -68,9 +68,9 @@ void addBallReportCommand(CLI::App& app, int& exitCode) {
   lab::BallReportSettings& settings = arguments->settings;
   addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--skill", settings.skill, "One of them, or all");
-  command->add_option(
-      "--opponent-data", arguments->opponentData,
-      "The same for the opponents in duel, attack, scrum and loose; without it: that of --data, without --set");
+  command->add_option("--opponent-data", arguments->opponentData,
+                      "The same for the opponents in duel, attack, scrum and loose; without it: that of "
+                      "--data, without --set");
   command->add_option("--trials", settings.trials, "Trials of each skill")->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
