@@ -232,7 +232,6 @@ struct BallHandlingParameters {
   double waitRoom = 0.25;
   double awaitMargin = 1.5;
   double awaitAside = 0.3;
-  double awaitRoom = 0.3;
   double kickLead = 0.5;
   double wayRoom = 0.5;
   double sideKeep = 0.3;
@@ -390,12 +389,6 @@ struct BallHandlingParameters {
           self.awaitMargin);
     visit({"awaitAside", Unit::Metre, {0, 2}, fixed, "and who waits for it keeps this far from its way"},
           self.awaitAside);
-    visit({"awaitRoom",
-           Unit::Metre,
-           {0, 2},
-           search(0, 0.5),
-           "and whose way keeps this far from where the ball is then"},
-          self.awaitRoom);
     visit({"kickLead",
            Unit::Second,
            {-100, 100},

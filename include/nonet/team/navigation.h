@@ -1,8 +1,6 @@
 // Going to a place on the field without running into anybody.
 #pragma once
 
-#include <optional>
-
 #include "nonet/math/pose2.h"
 #include "nonet/motion/request.h"
 #include "nonet/team/parameters.h"
@@ -12,13 +10,12 @@ namespace nonet::team {
 
 /// What to keep clear of on the way.
 struct Caution {
-  double robots = 0.7;               // m from robot to robot
-  double ball = 0.0;                 // m; 0: the ball may be touched
-  double wayToBall = 0.0;            // m that ways keep from the ball, if more; places may lie nearer
-  std::optional<Vector2> p_FBall{};  // ... from where it is then, own field frame; else from where it is
-  int onBall = 0;                    // number of the team mate on the ball, which gets more room; 0: none
-  double onBallRoom = 1.0;           // m from it
-  bool duel = false;                 // on the way to the ball: robots at the ball are no reason to stay away
+  double robots = 0.7;      // m from robot to robot
+  double ball = 0.0;        // m; 0: the ball may be touched
+  double wayToBall = 0.0;   // m that ways keep from the ball, if more; places may lie nearer
+  int onBall = 0;           // number of the team mate on the ball, which gets more room; 0: none
+  double onBallRoom = 1.0;  // m from it
+  bool duel = false;        // on the way to the ball: robots at the ball are no reason to stay away
 };
 
 /// A walk to X_FWanted (own field frame). Far away the robot faces its way, near by it takes the target's

@@ -24,16 +24,6 @@ Vector2 besideTheWay(const Situation& s, const Vector2& place, const Vector2& re
   return place + ((own > 0.0 ? room : -room) - aside) * left;
 }
 
-// Where the ball will be when the robot comes to it, straight and at its usual pace.
-Vector2 ballOnTheWay(const Situation& s, double rest) {
-  constexpr double kStep = 0.1;  // s
-  const double pace = s.parameters.navigation.pace;
-  double time = 0.0;
-  while (time < rest && (s.forecast.at(time) - s.world.self.X_FR.translation).norm() > pace * time)
-    time += kStep;
-  return s.forecast.at(time);
-}
-
 }  // namespace
 
 std::optional<Action> awaitBall(const Situation& s) {
@@ -47,8 +37,6 @@ std::optional<Action> awaitBall(const Situation& s) {
   const Vector2 behind = rest - p.behindBall * unitVector(direction);
   Caution caution;
   caution.robots = s.parameters.avoidDistance;
-  caution.wayToBall = p.awaitRoom;
-  caution.p_FBall = ballOnTheWay(s, time);
   const Pose2 place(besideTheWay(s, behind, rest), direction);
   Action action(walkTo(s.world, s.parameters.navigation, place, caution), "where it will rest");
   action.reason.candidates = s.play->candidates;
