@@ -21,7 +21,7 @@ namespace {
 
 // All trials of one skill; every skill has the same seeds.
 template <class Trial>
-auto repeated(const BallReportSettings& settings, const char* skill, const Trial& trial) {
+auto repeated(const BallReportSettings& settings, const std::string& skill, const Trial& trial) {
   using Result = decltype(trial(std::uint64_t{}));
   std::vector<Result> results(static_cast<std::size_t>(settings.trials));
   const Random seeds(settings.seed);
@@ -33,8 +33,8 @@ auto repeated(const BallReportSettings& settings, const char* skill, const Trial
 
 // The mean of what `value` says of the trials for which `counts`.
 template <class Result, class Value, class Counts>
-BallFigure figure(const char* key, const char* what, const std::vector<Result>& results, const Value& value,
-                  const Counts& counts) {
+BallFigure figure(const std::string& key, const char* what, const std::vector<Result>& results,
+                  const Value& value, const Counts& counts) {
   std::vector<double> sample;
   for (const Result& result : results) {
     if (counts(result)) sample.push_back(static_cast<double>(value(result)));
@@ -48,16 +48,15 @@ BallFigure figure(const char* key, const char* what, const std::vector<Result>& 
 }
 
 template <class Result, class Value>
-BallFigure figure(const char* key, const char* what, const std::vector<Result>& results, const Value& value) {
+BallFigure figure(const std::string& key, const char* what, const std::vector<Result>& results,
+                  const Value& value) {
   return figure(key, what, results, value, [](const Result&) { return true; });
 }
 
 // How near the ball was kept.
 void addKeeping(BallSkillReport& report, const std::string& skill, const std::vector<Dribble>& trials) {
   const auto add = [&](const char* key, const char* what, const auto& value) {
-    BallFigure row = figure(key, what, trials, value);
-    row.key = skill + key;
-    report.figures.push_back(row);
+    report.figures.push_back(figure(skill + key, what, trials, value));
   };
   add("_kept", "share never lost", [](const Dribble& t) { return t.arrived && !t.lost; });
   add("_away", "share of the time lost", [](const Dribble& t) { return t.away; });
@@ -66,7 +65,7 @@ void addKeeping(BallSkillReport& report, const std::string& skill, const std::ve
 }
 
 template <class Result>
-BallSkillReport reportOf(const char* skill, const std::vector<Result>& results,
+BallSkillReport reportOf(const std::string& skill, const std::vector<Result>& results,
                          std::vector<BallFigure> figures) {
   BallSkillReport report;
   report.skill = skill;
@@ -146,12 +145,12 @@ BallSkillReport measureAttack(const BallReportSettings& s, const sim::Settings& 
 
 BallSkillReport measureScrum(ScrumBall ball, const BallReportSettings& s, const sim::Settings& server) {
   const std::string name = ball == ScrumBall::Loose ? "loose" : "scrum";
-  const auto trials = repeated(s, name.c_str(),
-                               [&](auto seed) { return scrumOnce(ball, s.agent, s.opponent, server, seed); });
-  const auto row = [&](const std::string& key, const char* what, double Scrum::*value) {
-    return figure((name + key).c_str(), what, trials, [value](const Scrum& t) { return t.*value; });
+  const auto trials =
+      repeated(s, name, [&](auto seed) { return scrumOnce(ball, s.agent, s.opponent, server, seed); });
+  const auto row = [&](const char* key, const char* what, double Scrum::*value) {
+    return figure(name + key, what, trials, [value](const Scrum& t) { return t.*value; });
   };
-  return reportOf(name.c_str(), trials,
+  return reportOf(name, trials,
                   {row("_m", "m gained by three against three", &Scrum::gained),
                    row("_territory_m", "m, the same over the time", &Scrum::territory),
                    row("_falls", "falls of the three", &Scrum::falls),

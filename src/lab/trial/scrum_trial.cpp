@@ -131,13 +131,13 @@ void play(const agent::AgentSettings& agent, const agent::AgentSettings& opponen
 
 }  // namespace
 
-Scrum scrumOnce(ScrumBall kind, const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
+Scrum scrumOnce(ScrumBall ball, const agent::AgentSettings& agent, const agent::AgentSettings& opponent,
                 const sim::Settings& settings, std::uint64_t seed) {
   Random random(seed);
   const double along = random.uniform(-kAlong, kAlong);
   Begin begin;
   begin.ball = Vector2(along, random.uniform(-kAcross, kAcross));
-  const bool loose = kind == ScrumBall::Loose;
+  const bool loose = ball == ScrumBall::Loose;
   begin.places = drawPlaces(begin.ball, loose ? kAroundLoose : kAroundContested, random);
   if (loose) {
     const double speed = random.uniform(kLeastSpeed, kMostSpeed);
