@@ -30,6 +30,7 @@ Situation SituationTracker::update(const world::WorldState& world, const motion:
     situation.play = ownTurn(situation, recording_ ? &targets_ : nullptr);
   } else if (situation.acts()) {
     situation.play = playTowards(situation, intent_->p_FTarget, intent_->use);
+    situation.play->keep = intent_->keep;
   }
   return situation;
 }

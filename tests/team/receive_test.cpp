@@ -108,11 +108,11 @@ TEST(Receive, NotSomebodyElsesBall) {
 // The faster the steering dribbler may be, the nearer the ball is to its line when they meet.
 TEST(Dribble, SlowsDownForABallBesideTheLine) {
   Scene scene;
-  scene.parameters.dribble.steer = true;
   const auto speedFor = [&](const Vector2& ball) {
     scene.putBall(ball);
     Situation situation = assess(scene.world, scene.parameters, scene.motion);
     situation.play = playTowards(situation, Vector2(ball.x() + 10.0, ball.y()), KickUse::Never);
+    situation.play->keep = 0.5;
     const std::optional<Action> action = dribble(situation);
     return action ? std::get<motion::WalkVelocity>(action->motion).velocity : Pose2();
   };
@@ -141,11 +141,12 @@ TEST(Drill, TheIntentTakesTheGamesPlace) {
   Scene scene;
   SituationTracker tracker(scene.parameters);
   scene.putBall({0.5, 0.0});
-  tracker.setIntent(BallIntent{Vector2(0.5, 3.0), KickUse::Clear});
+  tracker.setIntent(BallIntent{Vector2(0.5, 3.0), KickUse::Clear, 0.4});
   const Situation told = tracker.update(scene.world, scene.motion);
   ASSERT_TRUE(told.play);
   EXPECT_EQ(told.play->p_FTarget, Vector2(0.5, 3.0));
   EXPECT_EQ(told.play->use, KickUse::Clear);
+  EXPECT_EQ(told.play->keep, 0.4);
   EXPECT_NEAR(told.play->direction, 0.5 * kPi, 1e-9);
   scene.world.ball.known = false;
   EXPECT_FALSE(tracker.update(scene.world, scene.motion).play);

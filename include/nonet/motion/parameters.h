@@ -62,6 +62,7 @@ struct MotionParameters {
     visit.group("run", self.run);
     visit.group("sidestep", self.sets.sidestep);
     visit.group("positioning", self.sets.positioning);
+    visit.group("dribble", self.sets.dribble);
     visit.group("head", self.head);
     visit.group("fall", self.fall);
     visit.group("kick", self.kick);

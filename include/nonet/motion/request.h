@@ -12,7 +12,7 @@
 namespace nonet::motion {
 
 /// Which parameter set the walk uses; Automatic: by target and ball (walk/control.h).
-enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Sidestep, Positioning };
+enum class WalkSet : std::uint8_t { Automatic, GoToTarget, Sprint, Sidestep, Positioning, Dribble };
 
 /// A stable crouch.
 struct Stand {

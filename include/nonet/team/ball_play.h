@@ -25,11 +25,13 @@ enum class KickUse : std::uint8_t {
 struct BallIntent {
   Vector2 p_FTarget = Vector2::Zero();  // own field frame, m
   KickUse use = KickUse::Never;
+  std::optional<double> keep{};  // m, dribbled at most so far from the torso; else as far as it rolls
 };
 
 struct BallPlay {
   Vector2 p_FTarget = Vector2::Zero();  // own field frame, m
   KickUse use = KickUse::Never;
+  std::optional<double> keep;            // m, dribbled at most so far from the torso
   std::string_view kick;                 // this one only; empty: the cheapest
   bool wait = false;                     // stand ready behind the ball, but do not touch it yet
   Vector2 p_FMeeting = Vector2::Zero();  // where the ball will be when one comes there, own field frame, m

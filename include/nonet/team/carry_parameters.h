@@ -11,6 +11,7 @@ struct DribbleParameters {
   double speed = 1.2;
   double touch = 0.3;
   double haste = 2.0;
+  double loose = 1.0;
   double leastSpeed = 0.15;
   double asideSpeed = 0.4;
   double asideGain = 5.0;
@@ -32,7 +33,8 @@ struct DribbleParameters {
            Unit::None,
            {0, 1},
            fixed,
-           "Whether to dribble by speed, steered to the ball's line; otherwise by a target beyond the ball"},
+           "Whether to keep the ball at the feet in games too, steered to its line; otherwise the robot runs "
+           "through it"},
           self.steer);
     visit({"speed", Unit::MetrePerSecond, {0.1, 3}, search(0.4, 2.0), "Of the robot behind a ball in line"},
           self.speed);
@@ -48,6 +50,12 @@ struct DribbleParameters {
            search(0.5, 5),
            "Speed more per distance that is left to the contact"},
           self.haste);
+    visit({"loose",
+           Unit::None,
+           {0, 10},
+           search(0.0, 4.0),
+           "Both grow by this share of the share by which the ball may be farther from the torso than 0.5 m"},
+          self.loose);
     visit({"leastSpeed",
            Unit::MetrePerSecond,
            {0, 3},

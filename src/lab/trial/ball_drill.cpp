@@ -49,12 +49,13 @@ class Driller {
 
 class Guide {
  public:
-  explicit Guide(const BallPath& path) : corners_(path.corners) {}
+  explicit Guide(const BallPath& path) : corners_(path.corners), keep_(path.keep) {}
 
   team::BallIntent operator()(const world::WorldState& world) {
     const Vector2 ball = world.ball.p_FB.head<2>();
     while (leg_ + 2 < corners_.size() && along(ball) > legLength() - kCorner) ++leg_;
-    return {corners_[leg_] + (std::max(0.0, along(ball)) + kAhead) * direction(), team::KickUse::Never};
+    return {corners_[leg_] + (std::max(0.0, along(ball)) + kAhead) * direction(), team::KickUse::Never,
+            keep_};
   }
 
  private:
@@ -63,6 +64,7 @@ class Guide {
   double along(const Vector2& ball) const { return (ball - corners_[leg_]).dot(direction()); }
 
   std::vector<Vector2> corners_;
+  double keep_;
   std::size_t leg_ = 0;
 };
 

@@ -31,7 +31,8 @@ using Intention = std::function<team::BallIntent(const world::WorldState&)>;
 Mind drilled(const team::TeamParameters& parameters, Intention intention);
 Mind drilled(const team::TeamParameters& parameters, const Vector2& p_FTarget, team::KickUse use);
 
-/// After the ball's place along the path, a little ahead of it; turns when the ball is at a corner.
+/// After the ball's place along the path, a little ahead of it; turns when the ball is at a corner. Kept at
+/// the feet.
 Intention along(const BallPath& path);
 
 /// A field player at that place.

@@ -123,7 +123,8 @@ MotionRequest WalkControl::calmed(const world::WorldState& world, const MotionRe
 
 WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionRequest& request) const {
   const WalkSet asked = setAskedFor(request);
-  if (asked != WalkSet::Automatic) return asked;
+  const bool canDo = asked != WalkSet::Dribble || (selection_.useDribble && !stumbles());
+  if (asked != WalkSet::Automatic && canDo) return asked;
   const bool stand = std::holds_alternative<Stand>(request);
   if (selection_.usePositioning && (stand || stumbles() || isCrowded(world))) return WalkSet::Positioning;
   if (stand) return set_;

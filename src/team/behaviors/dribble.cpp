@@ -9,6 +9,8 @@ namespace nonet::team {
 
 namespace {
 
+constexpr double kKeep = 0.5;  // m, of the ball from the torso, for which the parameters stand
+
 // The ball and the way that it should go, as they will be seen in a moment: the ball rolls, the robot walks.
 struct Line {
   double behind = 0.0;   // m, how far the robot is behind the ball
@@ -39,10 +41,12 @@ std::optional<Action> steer(const Situation& s) {
   const double gap = line.behind - p.contact;
   const double missing = std::max(std::abs(off) - p.tolerance, 1e-3);
   const double inTime = std::max(p.leastSpeed, p.asideSpeed * gap / missing);
-  const double ahead = std::min({p.speed, p.touch + p.haste * std::max(gap, 0.0), inTime});
+  const double looser = 1.0 + p.loose * (play.keep.value_or(kKeep) / kKeep - 1.0);
+  const double ahead = std::min({p.speed, looser * (p.touch + p.haste * std::max(gap, 0.0)), inTime});
   const double aside = std::clamp(p.asideGain * off, -p.asideSpeed, p.asideSpeed);
   const double inwards = p.footAside > 0.0 ? p.toe * foot / p.footAside : 0.0;
   motion::WalkVelocity walk;
+  walk.set = motion::WalkSet::Dribble;
   walk.velocity = Pose2(ahead * play.along + aside * play.aside, p.turnGain * (play.direction - inwards));
   return Action(walk, "steered");
 }
@@ -61,7 +65,8 @@ std::optional<Action> runThrough(const Situation& s) {
 
 std::optional<Action> dribble(const Situation& s) {
   if (!s.play) return std::nullopt;
-  std::optional<Action> action = s.parameters.dribble.steer ? steer(s) : runThrough(s);
+  const bool keep = s.play->keep.has_value() || s.parameters.dribble.steer;
+  std::optional<Action> action = keep ? steer(s) : runThrough(s);
   if (action) action->reason.candidates = s.play->candidates;
   return action;
 }

@@ -16,34 +16,24 @@
 namespace nonet::lab {
 namespace {
 
-TEST(BallTrial, DribblesTenMetres) {
-  int arrived = 0;
-  double speed = 0.0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Dribble trial = dribbleOnce(agentOfType(3), quick(), seed);
-    arrived += trial.arrived && !trial.fell ? 1 : 0;
-    speed += 0.25 * trial.speed;
+// Straight ahead and through a slalom, with the ball at the feet nearly all of the time.
+TEST(BallTrial, DribblesAndKeepsTheBall) {
+  int lost = 0;
+  for (const int type : {0, 2, 3}) {
+    double straight = 0.0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const Dribble trial = dribbleOnce(agentOfType(type), quick(), seed);
+      EXPECT_TRUE(trial.arrived && !trial.fell) << "type " << type << " seed " << seed;
+      straight += 0.25 * trial.speed;
+      lost += trial.lost ? 1 : 0;
+      EXPECT_LT(trial.away, 0.2);
+    }
+    EXPECT_GT(straight, 0.45) << "type " << type;
+    const Dribble slalom = slalomOnce(agentOfType(type), quick(), 1);
+    EXPECT_FALSE(slalom.fell);
+    EXPECT_LT(slalom.away, 0.25) << "type " << type;
   }
-  EXPECT_GE(arrived, 3);
-  EXPECT_GT(speed, 0.4);
-}
-
-// The same lines with the steered dribble, whose learned values lie in params/: slower, but the ball is
-// hardly ever lost, which without it is the rule.
-TEST(BallTrial, SteeredDribbleKeepsTheBall) {
-  agent::AgentSettings steered = agentOfType(0);
-  steered.parameters.team.dribble.steer = true;
-  double away = 0.0;
-  double before = 0.0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Dribble trial = dribbleOnce(steered, quick(), seed);
-    EXPECT_FALSE(trial.fell);
-    EXPECT_GT(trial.speed, 0.3);
-    away += 0.25 * trial.away;
-    before += 0.25 * dribbleOnce(agentOfType(0), quick(), seed).away;
-  }
-  EXPECT_LT(away, 0.25);
-  EXPECT_GT(before, 2.0 * away);
+  EXPECT_LE(lost, 3) << "of 12";
 }
 
 TEST(BallTrial, ComesToItsPlaceForAKick) {

@@ -100,6 +100,23 @@ TEST_F(WalkControlTest, DoesAsTheRequestSays) {
   EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
 }
 
+TEST_F(WalkControlTest, DribblesWithTheDribbleSetIfTheTypeHasOne) {
+  WalkSelection chosen = selection();
+  const WalkVelocity wanted{Pose2(0.5, 0.0, 0.0), WalkSet::Dribble};
+  EXPECT_EQ(setFor(wanted), WalkSet::GoToTarget) << "as if nothing were said";
+  chosen.useDribble = true;
+  WalkControl dribbler(model::robotModel(0), WalkSets{}, chosen);
+  const auto setOf = [&](const MotionRequest& request) {
+    dribbler.update(world, request, targets);
+    return dribbler.set();
+  };
+  EXPECT_EQ(setOf(WalkVelocity{wanted.velocity}), WalkSet::GoToTarget) << "only where it is asked for";
+  EXPECT_EQ(setOf(wanted), WalkSet::Dribble);
+  world.body.pitch = 2.0 * chosen.positioningTilt;
+  setOf(wanted);
+  EXPECT_EQ(setOf(wanted), WalkSet::Positioning) << "who stumbles";
+}
+
 TEST_F(WalkControlTest, SprintsStraightAheadOnly) {
   WalkSelection chosen = selection();
   chosen.useSprint = true;

@@ -3,7 +3,8 @@
 // Sets, after [MacAlpine 2012a, section 4.2]: `walk` (goToTarget) always; `sprint` when the target lies
 // within 15 degrees of the robot's direction; `sidestep` to walk sideways and backward without turning,
 // which the paper does not have; `positioning` near the ball (there within 0.8 m of it), and
-// here also near another robot, to stand and while stumbling: it is the set that was learned among pushes.
+// here also near another robot, to stand and while stumbling: it is the set that was learned among pushes;
+// `dribble` where the request asks for it, with a type that has one.
 // Changes are blended. A target that jumps about is averaged (target_filter.h).
 #pragma once
 
@@ -18,6 +19,7 @@ struct WalkSets {
   WalkParameters sprint;
   WalkParameters sidestep;
   WalkParameters positioning;
+  WalkParameters dribble;
 
   const WalkParameters& of(WalkSet set) const {
     switch (set) {
@@ -27,6 +29,8 @@ struct WalkSets {
         return sidestep;
       case WalkSet::Positioning:
         return positioning;
+      case WalkSet::Dribble:
+        return dribble;
       default:
         return goToTarget;
     }
@@ -37,6 +41,7 @@ struct WalkSelection {
   bool useSprint = false;
   bool useSidestep = false;
   bool usePositioning = false;
+  bool useDribble = false;
   double sprintAngle = 0.2618;
   double sprintDistance = 0.5;
   double sidestepAngle = 1.0;
@@ -57,6 +62,8 @@ struct WalkSelection {
           self.useSidestep);
     visit({"usePositioning", Unit::None, {0, 1}, fixed, "Whether the positioning set is used at all"},
           self.usePositioning);
+    visit({"useDribble", Unit::None, {0, 1}, fixed, "Whether the dribble set is used at all"},
+          self.useDribble);
     visit(
         {"sprintAngle", Unit::Radian, {0.0, 3.2}, fixed, "Sprint: largest angle between heading and target"},
         self.sprintAngle);
