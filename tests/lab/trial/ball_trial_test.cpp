@@ -11,10 +11,54 @@
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 
+#include "lab/trial/ball_drill.h"
 #include "motion/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
+
+// The same lines as dribbleOnce's by a robot that is not told to keep the ball: it runs through it, as in
+// play.
+Dribble runThroughOnce(const agent::AgentSettings& agent, std::uint64_t seed) {
+  Random random(seed);
+  const BallScene scene = dribbleScene(random);
+  const Vector2 way = scene.path.corners.back() - scene.path.corners.front();
+  GameSituation situation = scene.situation;
+  situation.players = {fieldPlayer(
+      agent, scene.start,
+      drilled(agent.parameters.team, scene.path.corners.back() + 0.5 * way, team::KickUse::Never))};
+  RecordedTrial trial(quick(), situation, random.next());
+  trial.run(30.0, [&] { return trial.playsOn(); });
+  Dribble dribble;
+  static_cast<DribbleResult&>(dribble) = measureDribble(trial.track(), scene.path);
+  trial.charge(dribble);
+  return dribble;
+}
+
+TEST(BallTrial, RunsThroughTheBallForTenMetres) {
+  int arrived = 0;
+  double speed = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Dribble trial = runThroughOnce(agentOfType(3), seed);
+    arrived += trial.arrived && !trial.fell ? 1 : 0;
+    speed += 0.25 * trial.speed;
+  }
+  EXPECT_GE(arrived, 3);
+  EXPECT_GT(speed, 0.4);
+}
+
+// Slower, but the ball is hardly ever lost, which by running through it is the rule.
+TEST(BallTrial, KeepsTheBallWhereRunningThroughItLosesIt) {
+  double away = 0.0;
+  double before = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    away += 0.25 * dribbleOnce(agentOfType(0), quick(), seed).away;
+    before += 0.25 * runThroughOnce(agentOfType(0), seed).away;
+  }
+  EXPECT_LT(away, 0.25);
+  EXPECT_GT(before, 2.0 * away);
+  EXPECT_GT(before, 0.1);
+}
 
 // Straight ahead and through a slalom, with the ball at the feet nearly all of the time.
 TEST(BallTrial, DribblesAndKeepsTheBall) {
