@@ -14,6 +14,7 @@ using model::Side;
 
 namespace {
 
+constexpr double kAbout = 2.0;  // tolerances: the ball lies about where a kick wants it
 constexpr double kNear = 0.01;  // m; from here on the least speed fades, so that it does not jump
 // A kick with its ball behind the robot: as long as it must still turn by more than this, rad, it keeps so
 // far from the ball, m.
@@ -66,7 +67,8 @@ double KickControl::cost(const KickOption& option, const KickTo& request) const 
   // The place lies beyond the ball as seen from here.
   const bool around = way.place.dot(request.ball) > request.ball.squaredNorm();
   return way.place.norm() + p.turnCost * std::abs(way.turn) + (around ? p.aroundCost : 0.0) +
-         p.timeCost * option.head.contact + p.shortCost * off + (option.head.fromWalk ? 0.0 : p.standCost);
+         p.timeCost * (option.head.steady + option.head.contact) + p.shortCost * off +
+         (option.head.fromWalk ? 0.0 : p.standCost);
 }
 
 bool KickControl::serves(const KickOption& option, const KickTo& request) const {
@@ -102,11 +104,13 @@ WalkVelocity KickControl::lastSteps(const Way& way, const Vector2& along) const 
   return walk;
 }
 
-// Where ball and target will be seen when the present steps have gone on for so long.
-KickTo KickControl::after(double seconds, const KickTo& request, const WalkEngine& walk) const {
+// Where ball and target will be seen when the present steps have gone on for so long, at so much less speed
+// ahead than they say.
+KickTo KickControl::after(double seconds, double drift, const KickTo& request, const WalkEngine& walk) const {
   const double cycles = seconds / kCycleTime;
   const Pose2& stride = walk.odometryStep();
-  const Pose2 back = Pose2(cycles * stride.translation, cycles * stride.rotation).inverse();
+  const Vector2 way = cycles * stride.translation - Vector2(seconds * drift, 0.0);
+  const Pose2 back = Pose2(way, cycles * stride.rotation).inverse();
   KickTo then = request;
   if (!chosen_->head.fromWalk && !walk.standing()) then.ball.x() += parameters_.stopDrift;
   then.ball = back * Vector2(then.ball);
@@ -118,7 +122,7 @@ bool KickControl::within(double share, const Way& way) const {
   const KickHead& head = chosen_->head;
   return std::abs(way.missing.x()) < share * head.tolerance.x() &&
          std::abs(way.missing.y()) < share * head.tolerance.y() &&
-         std::abs(way.turn) < share * std::max(parameters_.angle, head.turn);
+         std::abs(way.turn) < share * (head.turn > 0.0 ? head.turn : parameters_.angle);
 }
 
 // The cheapest first, and no further once one may begin or must still come to its place.
@@ -129,7 +133,10 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
   for (const KickOption*& refused : refused_) {
     chosen_ = choose(request);
     if (chosen_ == nullptr) return step;
-    if (chosen_ != before) comesToStand_ = false;
+    if (chosen_ != before) {
+      comesToStand_ = false;
+      steady_ = 0.0;
+    }
     step = stepFor(request, walk, quiet);
     if (!step.begin || check_ == nullptr || check_->check(*chosen_, step.aim.ball).allows()) return step;
     step.begin = step.inPlace = step.stand = comesToStand_ = false;
@@ -145,7 +152,7 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   const KickHead& head = chosen_->head;
   const double delay = CommandHistory::kDelay * kCycleTime;
   // The steps follow a ball that still rolls. In full they would run into it.
-  KickTo ahead = after(p.coast, request, walk);
+  KickTo ahead = after(p.coast, head.steady > 0.0 ? p.drift : 0.0, request, walk);
   ahead.ball += p.follow * (p.coast + delay + head.contact) * request.ballVelocity;
   Way toPlace = wayTo(*chosen_, ahead);
   const bool backwards = head.isBackward();
@@ -155,7 +162,7 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   if (backwards && !turns)
     step.walk.velocity.translation = shortened(step.walk.velocity.translation, kBackwards);
   // Where the ball will be when the kick begins, and by how much it still rolls until contact.
-  KickTo then = after(head.fromWalk ? delay : 0.0, request, walk);
+  KickTo then = after(head.fromWalk ? delay : 0.0, 0.0, request, walk);
   then.ball += (delay + head.contact) * request.ballVelocity;
   const Way way = wayTo(*chosen_, then);
   const bool quietly = walk.standing() && quiet >= p.quietTime;
@@ -165,6 +172,10 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
               (request.target - request.ball).norm()};
   step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
   step.stand = step.inPlace && !head.fromWalk;
+  if (head.steady > 0.0) {
+    steady_ = within(kAbout, way) ? steady_ + kCycleTime : 0.0;
+    step.begin = step.begin && steady_ >= head.steady;
+  }
   return step;
 }
 

@@ -53,6 +53,7 @@ KickHead readKickHead(SkillReader& reader) {
     if (reader.accept("ball")) {
       head.p_RBall = reader.pair(Unit::Metre);
       if (reader.accept("within")) head.tolerance = reader.pair(Unit::Metre);
+      if (reader.accept("for")) head.steady = reader.positive(Unit::Second);
     } else if (reader.accept("direction")) {
       head.direction = reader.value(Unit::Radian);
       if (reader.accept("within")) head.turn = reader.value(Unit::Radian);

@@ -62,7 +62,7 @@ double timeToContact(const Situation& s, const motion::KickHead& kick, double di
   // Near the ball, where it lies from the torso says nothing.
   const double besides = way.norm() > kAtBall ? 1.0 - std::cos(directionOf(way) - direction) : 0.0;
   const double turned = 1.0 - std::cos(X_FR.rotation - direction);
-  return way.norm() / p.kickPace + p.kickAround * std::max(besides, turned) + kick.contact +
+  return way.norm() / p.kickPace + p.kickAround * std::max(besides, turned) + kick.steady + kick.contact +
          (kick.fromWalk ? p.setupWalk : p.setupStand);
 }
 

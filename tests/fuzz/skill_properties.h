@@ -24,10 +24,10 @@ inline std::string describe(const std::vector<motion::Skill>& skills) {
                           static_cast<int>(parameter.unit), parameter.range ? parameter.range->low : 0.0,
                           parameter.range ? parameter.range->high : 0.0);
     if (skill.kick)
-      text +=
-          fmt::format("kick {} {} {} {} {} {} {} {} {}\n", skill.kick->p_RBall.x(), skill.kick->p_RBall.y(),
-                      skill.kick->direction, skill.kick->turn, skill.kick->longest, skill.kick->contact,
-                      skill.kick->clears, skill.kick->low, skill.kick->types);
+      text += fmt::format("kick {} {} {} {} {} {} {} {} {} {}\n", skill.kick->p_RBall.x(),
+                          skill.kick->p_RBall.y(), skill.kick->direction, skill.kick->turn,
+                          skill.kick->longest, skill.kick->contact, skill.kick->clears, skill.kick->low,
+                          skill.kick->steady, skill.kick->types);
     for (const motion::Instruction& instruction : skill.program) {
       text +=
           fmt::format("{} {} {} {} {} {}:", static_cast<int>(instruction.kind), instruction.value,

@@ -124,6 +124,47 @@ TEST(KickChoice, ChipsAreForThoseWhoAskForOne) {
   EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option->name, "kick_over");
 }
 
+// It begins once the ball has lain about in its place, within twice the tolerance, for so long.
+TEST(KickChoice, AKickThatIsToBeExactWaitsUntilTheBallHasLainInItsPlace) {
+  const Kicks kicks(
+      "skill kick_exact { kick { ball (0.2m, 5cm) within (5mm, 5mm) for 0.1s distance 3m..14m contact 0.3s "
+      "from walk } }");
+  KickControl control(kicks.catalogue, KickParameters{});
+  const auto begins = [&](double ahead) {
+    KickTo kick;
+    kick.ball = {ahead, 0.05};
+    kick.target = {10.0, 0.05};
+    return control.update(kick, kicks.walk, 1.0).begin;
+  };
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(begins(0.2)) << "cycle " << i;
+  EXPECT_FALSE(begins(0.208)) << "not in its place, but the time goes on";
+  EXPECT_TRUE(begins(0.2));
+  EXPECT_TRUE(begins(0.2));
+  EXPECT_FALSE(begins(0.215));
+  EXPECT_FALSE(begins(0.2)) << "the time begins anew";
+}
+
+// Steps on the spot say a speed ahead that leads nowhere: with it left out, the same steps seem to end nearer
+// to the robot, and it walks on.
+TEST(KickChoice, AnExactKickLeavesOutWhatStepsSayAndDoNotGo) {
+  const auto stepsAhead = [](const std::string& within, double drift) {
+    const std::string text = "skill kick_k { kick { ball (0.2m, 5cm) within " + within +
+                             " distance 3m..14m contact 0.3s from walk } }";
+    const Kicks kicks(text.c_str());
+    KickParameters parameters;
+    parameters.drift = drift;
+    KickControl control(kicks.catalogue, parameters);
+    KickTo kick;
+    kick.ball = {0.21, 0.05};
+    kick.target = {10.0, 0.05};
+    return control.update(kick, kicks.walk, 0.0).walk.velocity.translation.x();
+  };
+  const KickParameters p;
+  EXPECT_NEAR(stepsAhead("(5mm, 5mm) for 0.1s", 0.07) - stepsAhead("(5mm, 5mm) for 0.1s", 0.0),
+              p.gain * p.coast * 0.07, 1e-9);
+  EXPECT_DOUBLE_EQ(stepsAhead("(5mm, 5mm)", 0.07), stepsAhead("(5mm, 5mm)", 0.0));
+}
+
 TEST_F(Control, KeepsItsChoiceThroughSmallChanges) {
   EXPECT_EQ(step(request({0.2, 0.01}, {5.0, 0.0})).option->foot, Side::Left);
   EXPECT_EQ(step(request({0.2, -0.01}, {5.0, 0.0})).option->foot, Side::Left);

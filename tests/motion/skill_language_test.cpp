@@ -67,12 +67,14 @@ TEST(SkillLanguage, ExpressionsUseParametersAndPrecedence) {
 
 TEST(SkillLanguage, KicksSayWhatTheyAre) {
   const Skill skill = parseOne(
-      "parameter x = 0.2m kick { ball (x, -1cm) within (2cm, 3cm) direction 45deg distance 3m .. 8m flies "
+      "parameter x = 0.2m kick { ball (x, -1cm) within (2cm, 3cm) for 0.4s direction 45deg distance 3m .. 8m "
+      "flies "
       "1.1m at 3m within 0.3m contact 0.3s "
       "clears 0.7m within 4m low 0.3m room 0.5m from walk types 0 4 }");
   ASSERT_TRUE(skill.kick.has_value());
   EXPECT_TRUE(skill.kick->p_RBall.isApprox(Vector2(0.2, -0.01)));
   EXPECT_TRUE(skill.kick->tolerance.isApprox(Vector2(0.02, 0.03)));
+  EXPECT_DOUBLE_EQ(skill.kick->steady, 0.4);
   EXPECT_DOUBLE_EQ(skill.kick->direction, toRadians(45.0));
   EXPECT_DOUBLE_EQ(skill.kick->shortest, 3.0);
   EXPECT_DOUBLE_EQ(skill.kick->longest, 8.0);

@@ -64,6 +64,23 @@ TEST_F(Choice, PassesToAMateThatStandsFreeInFront) {
   EXPECT_LT((choice.p_FTarget - Vector2(4.0, 4.5)).norm(), 2.5);
 }
 
+// In its place a robot needs 1 s more for a kick that is to be exact; an opponent comes in between.
+TEST_F(Choice, KicksThatAreToBeExactAreForThoseWhoHaveTheTime) {
+  motion::KickOption exact = scene.motion.kicks.front();
+  exact.name = "exact";
+  exact.head.steady = 1.0;
+  exact.head.longest = 14.0;
+  const std::array kicks{scene.motion.kicks.front(), exact};
+  scene.motion.kicks = kicks;
+  ballAt({-8.0, 0.0});
+  EXPECT_EQ(choose().with, "exact");
+  const double plain = 0.3 / scene.parameters.choice.kickPace + 0.3 + scene.parameters.choice.setupWalk;
+  const double between = plain + 0.5;
+  const double reach = scene.parameters.choice.opponentReach;
+  opponentAt(4, {-8.0, reach + between * scene.parameters.choice.opponentPace});
+  EXPECT_NE(choose().with, "exact");
+}
+
 TEST_F(Choice, WithoutAKickItDribbles) {
   ballAt({10.5, 0.5});
   scene.motion.kicks = {};

@@ -37,7 +37,10 @@ class KickControl {
   /// One cycle in which a kick is asked for. `quiet`: s, for which the robot has stood quietly.
   KickStep update(const KickTo& request, const WalkEngine& walk, double quiet);
   /// Nothing is asked for, or a kick has begun: the next request chooses anew.
-  void reset() { chosen_ = nullptr; }
+  void reset() {
+    chosen_ = nullptr;
+    steady_ = 0.0;
+  }
 
  private:
   struct Way {                          // to the place for a kick
@@ -51,7 +54,7 @@ class KickControl {
   bool serves(const KickOption& option, const KickTo& request) const;
   const KickOption* choose(const KickTo& request) const;
   KickStep stepFor(const KickTo& request, const WalkEngine& walk, double quiet);
-  KickTo after(double seconds, const KickTo& request, const WalkEngine& walk) const;
+  KickTo after(double seconds, double drift, const KickTo& request, const WalkEngine& walk) const;
   WalkVelocity lastSteps(const Way& way, const Vector2& along) const;
   bool within(double share, const Way& way) const;
 
@@ -63,6 +66,7 @@ class KickControl {
   const KickOption* chosen_ = nullptr;
   std::array<const KickOption*, kMostChecks> refused_{};  // in this cycle
   bool comesToStand_ = false;                             // in the last cycle
+  double steady_ = 0.0;                                   // s that the ball has lain about in its place
 };
 
 }  // namespace nonet::motion

@@ -17,6 +17,7 @@ struct KickParameters {
   double stay = 2.0;
   double stopDrift = 0.01;
   double coast = 0.15;
+  double drift = 0.0;
   double follow = 0.4;
   double gain = 8.0;
   double leastSpeed = 0.1;
@@ -80,6 +81,12 @@ struct KickParameters {
            "How long the present steps go on when the robot is to walk elsewhere: the last steps look ahead "
            "by this"},
           self.coast);
+    visit({"drift",
+           Unit::MetrePerSecond,
+           {-0.3, 0.3},
+           search(0, 0.1),
+           "Speed ahead of steps that go nowhere: looking ahead by `coast` leaves it out"},
+          self.drift);
     visit({"follow",
            Unit::None,
            {0, 2},

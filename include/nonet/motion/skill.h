@@ -64,6 +64,7 @@ struct JointGoal {
 struct KickHead {
   Vector2 p_RBall = Vector2::Zero();    // place of the ball seen from the stand, m
   Vector2 tolerance = Vector2::Zero();  // how far from there it may lie, ahead and aside, m
+  double steady = 0.0;                  // s that it has lain about there before the kick begins; 0: at once
   double direction = 0.0;               // of the ball's way, robot frame, rad
   double turn = 0.0;                    // how far to either side of that it can send the ball, rad
   double shortest = 0.0;                // distances that it serves, m

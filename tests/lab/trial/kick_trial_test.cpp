@@ -57,6 +57,26 @@ TEST(Kicks, ToTheSideGoWhereTheyShould) {
   EXPECT_LE(fell, 2);
 }
 
+// Who waits until the ball lies exactly right kicks it nearly the same each time.
+TEST(Kicks, WithTheBallExactlyInItsPlaceGoFarAndStraight) {
+  const agent::AgentSettings agent = agentOfType(1);
+  sim::Settings server;
+  server.quickSolver = true;
+  constexpr int kKicks = 20;
+  int good = 0, fell = 0;
+  for (int i = 0; i < kKicks; ++i) {
+    KickScene scene;
+    scene.kick = "kick_long";
+    scene.bearing = kickBearing(i);
+    scene.start = 0.5 + 0.1 * (i % 12);
+    const Kick kick = kickOnce(agent, server, scene, static_cast<std::uint64_t>(i));
+    good += kick.forward > 13.5 && std::abs(kick.direction()) < toRadians(3.0) ? 1 : 0;
+    fell += kick.fell ? 1 : 0;
+  }
+  EXPECT_GE(good, 18);
+  EXPECT_LE(fell, 1);
+}
+
 // The referee sees a kick that ends with crossed legs, and none of ours.
 TEST(Kicks, ThatCrossTheLegsAreFouls) {
   agent::AgentSettings agent = agentOfType(2);
