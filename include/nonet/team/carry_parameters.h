@@ -54,7 +54,8 @@ struct DribbleParameters {
            Unit::None,
            {0, 10},
            search(0.0, 4.0),
-           "Both grow by this share of the share by which the ball may be farther from the torso than 0.5 m"},
+           "Touch and haste grow by this share of the share by which the ball may be farther from the torso "
+           "than 0.5 m"},
           self.loose);
     visit({"leastSpeed",
            Unit::MetrePerSecond,

@@ -1,6 +1,6 @@
 // dribble: the ball along a straight line of ten metres and through a slalom, seen with the robot's own eyes
 // (lab/trial/ball_trial.h). The fitness is the ball's mean speed on both less 2 m/s for the share of the time
-// in which it is lost, 0.4 if it is lost at all, 0.5 for a fall and 0.5 for a foul by collisions with
+// in which it is lost, 0.8 if it is lost at all, 0.5 for a fall and 0.5 for a foul by collisions with
 // oneself.
 #include "nonet/lab/trial/ball_trial.h"
 #include "nonet/math/random.h"
@@ -12,7 +12,7 @@ namespace nonet::lab {
 namespace {
 
 constexpr double kAway = 2.0;  // m/s
-constexpr double kLost = 0.4;  // m/s
+constexpr double kLost = 0.8;  // m/s
 constexpr double kDribbleFall = 0.5;
 constexpr double kFoul = 0.5;
 
