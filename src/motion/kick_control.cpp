@@ -14,8 +14,9 @@ using model::Side;
 
 namespace {
 
-constexpr double kAbout = 2.0;  // tolerances: the ball lies about where a kick wants it
-constexpr double kNear = 0.01;  // m; from here on the least speed fades, so that it does not jump
+constexpr double kAbout = 2.0;      // tolerances: the ball lies about where a kick wants it
+constexpr double kKeepsRoom = 0.8;  // share of a kick's room that is enough once it is chosen
+constexpr double kNear = 0.01;      // m; from here on the least speed fades, so that it does not jump
 // A kick with its ball behind the robot: as long as it must still turn by more than this, rad, it keeps so
 // far from the ball, m.
 constexpr double kTurned = 0.5;
@@ -72,11 +73,14 @@ double KickControl::cost(const KickOption& option, const KickTo& request) const 
 }
 
 bool KickControl::serves(const KickOption& option, const KickTo& request) const {
-  if (option.head.room > request.room) return false;
+  const double room = &option == chosen_ ? kKeepsRoom : 1.0;
+  if (room * option.head.room > request.room) return false;
   const bool named = request.kick.view() == option.name;
   if (!request.kick.view().empty() && !named) return false;
-  // What a ball may go beyond is not for soft kicks, and chips are for those who want to go over somebody.
-  if (((option.head.scales && !request.stops) || option.head.isChip()) && !named) return false;
+  // What a ball may go beyond is not for soft kicks, chips are for those who want to go over somebody, and
+  // exact kicks for those who have the time.
+  const bool special = option.head.isChip() || option.head.steady > 0.0;
+  if (((option.head.scales && !request.stops) || special) && !named) return false;
   return std::find(refused_.begin(), refused_.end(), &option) == refused_.end();
 }
 
@@ -133,10 +137,7 @@ KickStep KickControl::update(const KickTo& request, const WalkEngine& walk, doub
   for (const KickOption*& refused : refused_) {
     chosen_ = choose(request);
     if (chosen_ == nullptr) return step;
-    if (chosen_ != before) {
-      comesToStand_ = false;
-      steady_ = 0.0;
-    }
+    if (chosen_ != before) comesToStand_ = false;
     step = stepFor(request, walk, quiet);
     if (!step.begin || check_ == nullptr || check_->check(*chosen_, step.aim.ball).allows()) return step;
     step.begin = step.inPlace = step.stand = comesToStand_ = false;
@@ -173,7 +174,9 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
   step.stand = step.inPlace && !head.fromWalk;
   if (head.steady > 0.0) {
-    steady_ = within(kAbout, way) ? steady_ + kCycleTime : 0.0;
+    const bool lies = within(kAbout, way) && (steady_ == 0.0 || steadyFor_ == chosen_);
+    steadyFor_ = chosen_;
+    steady_ = lies ? steady_ + kCycleTime : 0.0;
     step.begin = step.begin && steady_ >= head.steady;
   }
   return step;

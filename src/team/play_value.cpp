@@ -12,6 +12,8 @@ namespace nonet::team {
 
 namespace {
 
+// Who waits until the ball lies exactly in its place has to come there first: about as long again.
+constexpr double kExact = 2.0;
 constexpr double kAtBall = 0.15;  // m
 
 double logistic(double x) {
@@ -62,8 +64,8 @@ double timeToContact(const Situation& s, const motion::KickHead& kick, double di
   // Near the ball, where it lies from the torso says nothing.
   const double besides = way.norm() > kAtBall ? 1.0 - std::cos(directionOf(way) - direction) : 0.0;
   const double turned = 1.0 - std::cos(X_FR.rotation - direction);
-  return way.norm() / p.kickPace + p.kickAround * std::max(besides, turned) + kick.steady + kick.contact +
-         (kick.fromWalk ? p.setupWalk : p.setupStand);
+  return way.norm() / p.kickPace + p.kickAround * std::max(besides, turned) + kExact * kick.steady +
+         kick.contact + (kick.fromWalk ? p.setupWalk : p.setupStand);
 }
 
 double timeLeftAtBall(const Situation& s) {

@@ -5,6 +5,7 @@
 
 #include "nonet/math/direction.h"
 #include "nonet/team/ball_play.h"
+#include "nonet/team/play_time.h"
 
 namespace nonet::team {
 
@@ -28,17 +29,19 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   const Vector2 goal = world.field.theirGoal();
   if ((goal - ball).norm() > p.distance) return std::nullopt;
   const double side = world.field.post() - p.postMargin;
+  const double nearest = nearestOf(world.opponents, ball);
   std::optional<Shot> best;
   std::pair<bool, double> most{false, 0.0};
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
     for (const motion::KickOption& kick : kicks) {
-      if (kick.foot != model::Side::Left || !kick.head.isStraight()) continue;
+      if (kick.foot != model::Side::Left || !kick.head.isStraight() || kick.head.room > nearest) continue;
       const double hits = scores(world, kick.head, place - ball, p);
       if (hits < p.hits) continue;
       const double lane = laneWidth(world, ball, place, p.widest, kick.head);
-      // A chip, which is slower and goes less far, only where no other kick serves.
-      const std::pair rated{!kick.head.isChip(), hits * lane};
+      // A chip, which is slower and goes less far, and a kick that takes more time to be exact, only where no
+      // other kick serves.
+      const std::pair rated{!kick.head.isChip() && kick.head.steady == 0.0, hits * lane};
       if (lane < p.lane || rated <= most) continue;
       most = rated;
       // A kick that goes as far as it is asked to is asked for all.

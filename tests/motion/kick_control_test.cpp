@@ -124,16 +124,40 @@ TEST(KickChoice, ChipsAreForThoseWhoAskForOne) {
   EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option->name, "kick_over");
 }
 
+TEST(KickChoice, ExactKicksAreForThoseWhoAskForOne) {
+  const Kicks kicks(
+      "skill kick_exact { kick { ball (0.2m, 5cm) within (3cm, 2cm) for 0.1s distance 3m..14m contact 0.3s "
+      "room 2m from walk } }\n"
+      "skill kick_plain { kick { ball (0.2m, 5cm) within (3cm, 2cm) distance 3m..5m contact 0.3s "
+      "from walk } }");
+  KickControl control(kicks.catalogue, KickParameters{});
+  KickTo kick;
+  kick.ball = {0.2, 0.05};
+  kick.target = {14.2, 0.05};
+  EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option->name, "kick_plain") << "nine metres too short";
+  kick.kick = std::string_view("kick_exact");
+  kick.room = 1.9;
+  EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option, nullptr) << "somebody is near";
+  kick.room = 2.1;
+  EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option->name, "kick_exact");
+  kick.room = 1.9;
+  EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option->name, "kick_exact")
+      << "not broken off for a little";
+  kick.room = 1.5;
+  EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option, nullptr);
+}
+
 // It begins once the ball has lain about in its place, within twice the tolerance, for so long.
 TEST(KickChoice, AKickThatIsToBeExactWaitsUntilTheBallHasLainInItsPlace) {
   const Kicks kicks(
-      "skill kick_exact { kick { ball (0.2m, 5cm) within (5mm, 5mm) for 0.1s distance 3m..14m contact 0.3s "
-      "from walk } }");
+      "skill kick_exact { kick { ball (0.2m, 5cm) within (5mm, 5mm) for 0.1s direction 0deg within 4deg "
+      "distance 3m..14m contact 0.3s from walk } }");
   KickControl control(kicks.catalogue, KickParameters{});
-  const auto begins = [&](double ahead) {
+  const auto begins = [&](double ahead, double turn = 0.0) {
     KickTo kick;
     kick.ball = {ahead, 0.05};
-    kick.target = {10.0, 0.05};
+    kick.target = kick.ball + 10.0 * unitVector(turn);
+    kick.kick = std::string_view("kick_exact");
     return control.update(kick, kicks.walk, 1.0).begin;
   };
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(begins(0.2)) << "cycle " << i;
@@ -142,6 +166,10 @@ TEST(KickChoice, AKickThatIsToBeExactWaitsUntilTheBallHasLainInItsPlace) {
   EXPECT_TRUE(begins(0.2));
   EXPECT_FALSE(begins(0.215));
   EXPECT_FALSE(begins(0.2)) << "the time begins anew";
+  for (int i = 0; i < 5; ++i) begins(0.2);
+  EXPECT_FALSE(begins(0.2, toRadians(6.0)))
+      << "its head wants the direction within less than motion.kick.angle";
+  EXPECT_TRUE(begins(0.2, toRadians(3.0)));
 }
 
 // Steps on the spot say a speed ahead that leads nowhere: with it left out, the same steps seem to end nearer
@@ -157,6 +185,7 @@ TEST(KickChoice, AnExactKickLeavesOutWhatStepsSayAndDoNotGo) {
     KickTo kick;
     kick.ball = {0.21, 0.05};
     kick.target = {10.0, 0.05};
+    kick.kick = std::string_view("kick_k");
     return control.update(kick, kicks.walk, 0.0).walk.velocity.translation.x();
   };
   const KickParameters p;

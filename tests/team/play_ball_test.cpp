@@ -144,6 +144,23 @@ TEST(PlayBall, ChipsOnlyOverSomebody) {
   EXPECT_EQ(shot(), "chip") << "a wall of three where the ball is highest";
 }
 
+TEST(PlayBall, ShotsWithAKickThatNeedsRoomOrTimeAreForWhereNoOtherServes) {
+  world::WorldState world;
+  world.ball.p_FB = Vector3(8.0, 0.0, 0.042);
+  motion::KickOption exact = kickFor("exact", 14.0);
+  exact.head.room = 2.0;
+  exact.head.steady = 0.5;
+  const auto shot = [&](double longest) {
+    const std::array kicks{exact, kickFor("plain", longest)};
+    const std::optional<Shot> best = bestShot(world, kicks, {});
+    return best ? std::string(best->kick) : "none";
+  };
+  EXPECT_EQ(shot(12.0), "plain");
+  EXPECT_EQ(shot(6.0), "exact") << "the other one does not reach the goal";
+  Scene::put(world.opponents[5], Pose2(6.5, 1.0, 0.0));
+  EXPECT_EQ(shot(6.0), "none") << "somebody is at 1.8 m";
+}
+
 // The oracle: which of the places between the posts a straight line reaches past everybody.
 TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
   world::WorldState world;

@@ -67,6 +67,7 @@ class KickControl {
   std::array<const KickOption*, kMostChecks> refused_{};  // in this cycle
   bool comesToStand_ = false;                             // in the last cycle
   double steady_ = 0.0;                                   // s that the ball has lain about in its place
+  const KickOption* steadyFor_ = nullptr;                 // for this kick
 };
 
 }  // namespace nonet::motion
