@@ -64,7 +64,7 @@ TEST_F(Choice, PassesToAMateThatStandsFreeInFront) {
   EXPECT_LT((choice.p_FTarget - Vector2(4.0, 4.5)).norm(), 2.5);
 }
 
-// In its place a robot needs 1 s more for a kick that is to be exact; an opponent comes in between.
+// A kick that is to be exact takes longer, by twice what its head says; an opponent comes in between.
 TEST_F(Choice, KicksThatAreToBeExactAreForThoseWhoHaveTheTime) {
   motion::KickOption exact = scene.motion.kicks.front();
   exact.name = "exact";

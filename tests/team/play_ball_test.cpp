@@ -2,6 +2,8 @@
 // itself behind the ball without touching it, then drive it towards the target, from any start.
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -124,6 +126,11 @@ motion::KickOption kickFor(const char* name, double longest) {
   return kick;
 }
 
+std::string kickOfShot(const world::WorldState& world, std::span<const motion::KickOption> kicks) {
+  const std::optional<Shot> best = bestShot(world, kicks, {});
+  return best ? std::string(best->kick) : "none";
+}
+
 TEST(PlayBall, ChipsOnlyOverSomebody) {
   world::WorldState world;
   world.ball.p_FB = Vector3(10.8, 0.0, 0.042);
@@ -134,14 +141,10 @@ TEST(PlayBall, ChipsOnlyOverSomebody) {
   chip.head.clears = 0.7;
   chip.head.lands = 4.0;
   const std::array kicks{chip, kickFor("low", 8.0)};
-  const auto shot = [&] {
-    const std::optional<Shot> best = bestShot(world, kicks, {});
-    return best ? std::string(best->kick) : "none";
-  };
-  EXPECT_EQ(shot(), "low");
+  EXPECT_EQ(kickOfShot(world, kicks), "low");
   for (const int unum : {4, 5, 6})
     Scene::put(world.opponents[static_cast<std::size_t>(unum)], Pose2(12.6, 0.5 * (unum - 5), kPi));
-  EXPECT_EQ(shot(), "chip") << "a wall of three where the ball is highest";
+  EXPECT_EQ(kickOfShot(world, kicks), "chip") << "a wall of three where the ball is highest";
 }
 
 TEST(PlayBall, ShotsWithAKickThatNeedsRoomOrTimeAreForWhereNoOtherServes) {
@@ -151,9 +154,7 @@ TEST(PlayBall, ShotsWithAKickThatNeedsRoomOrTimeAreForWhereNoOtherServes) {
   exact.head.room = 2.0;
   exact.head.steady = 0.5;
   const auto shot = [&](double longest) {
-    const std::array kicks{exact, kickFor("plain", longest)};
-    const std::optional<Shot> best = bestShot(world, kicks, {});
-    return best ? std::string(best->kick) : "none";
+    return kickOfShot(world, std::array{exact, kickFor("plain", longest)});
   };
   EXPECT_EQ(shot(12.0), "plain");
   EXPECT_EQ(shot(6.0), "exact") << "the other one does not reach the goal";
