@@ -14,9 +14,8 @@ using model::Side;
 
 namespace {
 
-constexpr double kAbout = 2.0;      // tolerances: the ball lies about where a kick wants it
-constexpr double kKeepsRoom = 0.8;  // share of a kick's room that is enough once it is chosen
-constexpr double kNear = 0.01;      // m; from here on the least speed fades, so that it does not jump
+constexpr double kAbout = 2.0;  // tolerances: the ball lies about where a kick wants it
+constexpr double kNear = 0.01;  // m; from here on the least speed fades, so that it does not jump
 // A kick with its ball behind the robot: as long as it must still turn by more than this, rad, it keeps so
 // far from the ball, m.
 constexpr double kTurned = 0.5;
@@ -73,14 +72,13 @@ double KickControl::cost(const KickOption& option, const KickTo& request) const 
 }
 
 bool KickControl::serves(const KickOption& option, const KickTo& request) const {
-  const double room = &option == chosen_ ? kKeepsRoom : 1.0;
-  if (room * option.head.room > request.room) return false;
+  if (!option.head.hasRoom(request.room, &option == chosen_)) return false;
   const bool named = request.kick.view() == option.name;
   if (!request.kick.view().empty() && !named) return false;
   // What a ball may go beyond is not for soft kicks, chips are for those who want to go over somebody, and
   // exact kicks for those who have the time.
-  const bool special = option.head.isChip() || option.head.steady > 0.0;
-  if (((option.head.scales && !request.stops) || special) && !named) return false;
+  const bool special = (option.head.scales && !request.stops) || option.head.onlyByName();
+  if (special && !named) return false;
   return std::find(refused_.begin(), refused_.end(), &option) == refused_.end();
 }
 
@@ -153,7 +151,7 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   const KickHead& head = chosen_->head;
   const double delay = CommandHistory::kDelay * kCycleTime;
   // The steps follow a ball that still rolls. In full they would run into it.
-  KickTo ahead = after(p.coast, head.steady > 0.0 ? p.drift : 0.0, request, walk);
+  KickTo ahead = after(p.coast, head.isExact() ? p.drift : 0.0, request, walk);
   ahead.ball += p.follow * (p.coast + delay + head.contact) * request.ballVelocity;
   Way toPlace = wayTo(*chosen_, ahead);
   const bool backwards = head.isBackward();
@@ -173,7 +171,7 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
               (request.target - request.ball).norm()};
   step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
   step.stand = step.inPlace && !head.fromWalk;
-  if (head.steady > 0.0) {
+  if (head.isExact()) {
     const bool lies = within(kAbout, way) && (steady_ == 0.0 || steadyFor_ == chosen_);
     steadyFor_ = chosen_;
     steady_ = lies ? steady_ + kCycleTime : 0.0;

@@ -19,7 +19,6 @@ constexpr int kDirections = 12;  // to either side of straight ahead
 constexpr double kStep = toRadians(10.0);
 constexpr int kAllDirections = 36;       // of that step, all around
 constexpr double kSlowRoll = 3.0;        // s until a kicked ball is slow enough to be taken
-constexpr double kKeepsRoom = 0.8;       // share of its room that is enough for the kick on its way
 constexpr double kSameKick = 0.2;        // rad
 constexpr double kGoalLineMargin = 0.1;  // m beyond the line that a shot must reach
 
@@ -65,8 +64,7 @@ void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoi
   for (const motion::KickOption& kick : s.motion.kicks) {
     const motion::KickHead& head = kick.head;
     if (kick.foot != model::Side::Left || !head.isStraight() || head.scales || head.isChip()) continue;
-    const bool chosen = s.motion.kick.name == kick.name;
-    if ((chosen ? kKeepsRoom : 1.0) * head.room > s.nearestOpponent) continue;
+    if (!head.hasRoom(s.nearestOpponent, s.motion.kick.name == kick.name)) continue;
     const double length = p.length * head.longest;
     for (int i = fan.from; i <= fan.to; ++i) {
       const double direction = wrapAngle(fan.middle + kStep * i);

@@ -21,7 +21,7 @@ bool canReceive(const Situation& s, int unum) {
 }
 
 bool serves(const motion::KickOption& kick, double distance, const Situation& s) {
-  if (kick.head.room > s.nearestOpponent || kick.head.isChip()) return false;
+  if (!kick.head.hasRoom(s.nearestOpponent) || kick.head.isChip()) return false;
   // Who kicks straight does it with either foot: motion chooses.
   if (kick.head.isStraight() && kick.foot != model::Side::Left) return false;
   if (kick.head.scales) return distance >= kick.head.shortest && distance <= kick.head.longest;

@@ -35,13 +35,13 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
     for (const motion::KickOption& kick : kicks) {
-      if (kick.foot != model::Side::Left || !kick.head.isStraight() || kick.head.room > nearest) continue;
+      if (kick.foot != model::Side::Left || !kick.head.isStraight() || !kick.head.hasRoom(nearest)) continue;
       const double hits = scores(world, kick.head, place - ball, p);
       if (hits < p.hits) continue;
       const double lane = laneWidth(world, ball, place, p.widest, kick.head);
       // A chip, which is slower and goes less far, and a kick that takes more time to be exact, only where no
       // other kick serves.
-      const std::pair rated{!kick.head.isChip() && kick.head.steady == 0.0, hits * lane};
+      const std::pair rated{!kick.head.onlyByName(), hits * lane};
       if (lane < p.lane || rated <= most) continue;
       most = rated;
       // A kick that goes as far as it is asked to is asked for all.

@@ -86,6 +86,15 @@ struct KickHead {
   bool isStraight() const { return std::abs(direction) <= turn; }
   /// Over somebody: done only when it is asked for by name.
   bool isChip() const { return clears > 0.0; }
+  /// It waits until the ball has lain in its place.
+  bool isExact() const { return steady > 0.0; }
+  /// Who wants just any kick gets another one.
+  bool onlyByName() const { return isChip() || isExact(); }
+  /// The nearest opponent is so far from the ball, m. A kick that was chosen is not given up for a little.
+  bool hasRoom(double nearest, bool chosen = false) const {
+    constexpr double kKeeps = 0.8;
+    return nearest >= (chosen ? kKeeps : 1.0) * room;
+  }
   /// The ball lies behind the robot: a kick with the heel.
   bool isBackward() const { return p_RBall.x() < 0.0; }
   /// The probability that the ball is lower than `height` (m) so far (m) from where it lay. Its first flight

@@ -67,7 +67,7 @@ std::optional<Action> kickAside(const Situation& s) {
   double bestDirection = 0.0;
   double most = p.least;
   for (const motion::KickOption& kick : s.motion.kicks) {
-    if (kick.head.isStraight() || kick.head.room > s.nearestOpponent) continue;
+    if (kick.head.isStraight() || !kick.head.hasRoom(s.nearestOpponent)) continue;
     for (int i = -kTurns; i <= kTurns; ++i) {
       const double turn = i * kStep;
       const double direction = wrapAngle(s.world.self.X_FR.rotation + kick.head.direction + turn);

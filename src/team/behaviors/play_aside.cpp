@@ -13,9 +13,8 @@ namespace nonet::team {
 namespace {
 
 bool serves(const Situation& s, const BallPlay& play, const motion::KickOption& kick) {
-  if (kick.head.isBackward() || kick.head.room > s.nearestOpponent) return false;
-  return play.kick.empty() ? !kick.head.scales && !kick.head.isChip() && kick.head.steady == 0.0
-                           : play.kick == kick.name;
+  if (kick.head.isBackward() || !kick.head.hasRoom(s.nearestOpponent)) return false;
+  return play.kick.empty() ? !kick.head.scales && !kick.head.onlyByName() : play.kick == kick.name;
 }
 
 // s; the kick that motion was asked for last is cheaper.
@@ -36,7 +35,7 @@ double costOf(const Situation& s, const BallPlay& straight, const motion::KickOp
 double kickLength(const Situation& s, std::string_view kick) {
   double longest = 0.0;
   for (const motion::KickOption& option : s.motion.kicks)
-    if (kick.empty() ? option.head.steady == 0.0 : kick == option.name)
+    if (kick.empty() ? !option.head.isExact() : kick == option.name)
       longest = std::max(longest, option.head.longest);
   return s.parameters.choice.length * longest;
 }
@@ -45,7 +44,7 @@ double contactTime(const Situation& s, const BallPlay& play) {
   const double heading = s.world.self.X_FR.rotation + play.direction;
   double least = std::numeric_limits<double>::infinity();
   for (const motion::KickOption& kick : s.motion.kicks) {
-    const bool any = kick.head.isStraight() && kick.head.steady == 0.0;
+    const bool any = kick.head.isStraight() && !kick.head.isExact();
     const bool meant = play.kick.empty() ? any : play.kick == kick.name;
     if (meant) least = std::min(least, timeToContact(s, kick.head, heading));
   }
