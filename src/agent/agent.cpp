@@ -45,6 +45,13 @@ protocol::Effectors Agent::hello() const {
 const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
   Stages& s = *stages_;
   protocol::Effectors& effectors = s.effectors;
+  const double before = s.robot.world().time;
+  const world::WorldState& world = s.robot.sense(percept);
+  if (s.asked && world.time == before) {
+    // A message once more: nothing has moved since, so the joints go on, and what was said is said.
+    effectors.keepSpeeds();
+    return effectors;
+  }
   effectors.clear();
   if (!s.asked) {
     effectors.init.emplace();
@@ -53,7 +60,6 @@ const protocol::Effectors& Agent::step(const protocol::Percept& percept) {
     s.asked = true;
   }
 
-  const world::WorldState& world = s.robot.sense(percept);
   team::Action action = s.behavior.update(world, s.robot.motion().state());
   if (action.beam && s.settings.startPose) action.beam = s.settings.startPose;
   if (s.show) {

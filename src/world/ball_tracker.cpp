@@ -168,8 +168,8 @@ void BallTracker::measure(const Vector3& p_FB, const Matrix3& covariance, double
   measureHeight(p_FB.z(), covariance(2, 2));
 }
 
-// Where a ball that a mate saw `age` ago is now: it flies, then it rolls. How high nobody tells: as high as a
-// ball that has left the ground just now and is up for so long.
+// Where a ball that a mate told of `age` ago is now: it flies, then it rolls. How high nobody tells: as high
+// as a ball that has left the ground just now and is up for so long.
 BallMotion BallTracker::reported(const Report& report, double age) {
   BallMotion ball{{report.p_FB.x(), report.p_FB.y(), kBallRestHeight},
                   {report.v_FB.x(), report.v_FB.y(), 0.5 * kGravity * report.landsIn}};
@@ -181,7 +181,7 @@ void BallTracker::hear(const Report& report, double time) {
   // Only what is clearly newer than the own sight helps.
   if (report.seenAt < lastSeen_ + kGrace || report.seenAt < lastReported_) return;
   const double age = std::max(0.0, time - report.seenAt);
-  const BallMotion ball = reported(report, age);
+  const BallMotion ball = reported(report, std::max(0.0, time - report.toldAt));
   const double sigma = report.sigma + kUnseenGrowth * age;
   const Matrix2 covariance = Matrix2::Identity() * sigma * sigma;
   lastReported_ = report.seenAt;

@@ -198,8 +198,10 @@ void PlayerTracker::hear(const Report& report, WorldState& state) const {
   sighting.heading = report.X_FP.rotation;
   sighting.headingKnown = report.headingKnown;
   sighting.fallen = report.fallen;
-  // A good sighting of this cycle beats a poor report, but the number's own word on falling always counts.
-  if (player.known && player.lastSeen == state.time && player.sigma < report.sigma) {
+  // A good sighting of this cycle beats a poor report, and so does any place one that is not worth keeping,
+  // but the number's own word on falling always counts.
+  const bool seenNow = player.lastSeen == state.time && player.sigma < report.sigma;
+  if (player.known && (seenNow || report.sigma > kForgetSigma)) {
     player.fallen = report.fallen;
     return;
   }

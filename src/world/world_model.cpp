@@ -132,8 +132,9 @@ void WorldModel::Stages::believe(const protocol::SayMessage& message, double tim
                state);
   if (message.ball) {
     const protocol::SayBall& seen = *message.ball;
-    ball.hear({seen.p_FB, seen.v_FB, spokenAt - seen.age, message.sigma + kToldThingSigma, seen.landsIn},
-              time);
+    ball.hear(
+        {seen.p_FB, seen.v_FB, spokenAt - seen.age, spokenAt, message.sigma + kToldThingSigma, seen.landsIn},
+        time);
   }
   if (message.kind == protocol::SayKind::Sightings) {
     for (const protocol::SaySighting& seen : message.sightings) {
@@ -160,13 +161,15 @@ void WorldModel::Stages::followBall(const protocol::Percept& percept) {
   if (now.phaseSince != spotSince) {
     spotSince = now.phaseSince;
     spot.reset();
-    if (state.ball.known) spot = setPieceSpot(now.phase, state.ball.p_FB.head<2>(), state.field);
     // It has lain in the goal until now, where this message still shows it (server facts 1.2).
     putNow = isKickOff(now.phase);
     if (putNow) ball.put(Vector2::Zero(), state.time);
   }
   ball.predict(state.body.cycleTime);
-  const bool rollsOn = spot && state.time - now.phaseSince < kBallRollsOn;
+  const bool justNow = state.time - now.phaseSince < kBallRollsOn;
+  if (justNow && !spot && state.ball.known)
+    spot = setPieceSpot(now.phase, state.ball.p_FB.head<2>(), state.field);
+  const bool rollsOn = spot && justNow;
   if (percept.vision && !rollsOn && !putNow)
     ball.see(*percept.vision, state.self, localization.belief().offset, state.time);
   listen(percept);

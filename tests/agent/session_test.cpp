@@ -113,6 +113,24 @@ TEST(Session, KeepsTheBeamOfAPassedOverMessage) {
   EXPECT_THAT(std::string(late.answer()), HasSubstr("(beam "));
 }
 
+// Oracle: an agent that gets every message once.
+TEST(Session, AMessageThatComesTwiceMovesNothing) {
+  Session once(settings()), twice(settings());
+  std::string repeated;
+  for (Session* session : {&once, &twice}) session->begin();
+  for (int i = 0; i < 40; ++i) {
+    const std::string text = message(i, i == 1 ? kAccepted : "");
+    once.receive(text);
+    twice.receive(text);
+    ASSERT_EQ(once.answer(), twice.answer()) << i;
+    twice.receive(text);
+    repeated = twice.answer();
+    EXPECT_THAT(repeated, Not(HasSubstr("(beam"))) << i;
+    EXPECT_THAT(repeated, Not(HasSubstr("(init"))) << i;
+  }
+  EXPECT_THAT(repeated, HasSubstr("(he1 "));
+}
+
 TEST(Session, TellsARefusal) {
   Session session(settings());
   session.begin();

@@ -261,7 +261,7 @@ TEST(BallTracker, AToldFlightEndsWhereTheBallLands) {
     BallMotion ball{{-2.0, 1.0, kBallRestHeight}, {7.0, 2.0, 4.0}};
     const double landsIn = landingTime(ball);
     BallTracker tracker;
-    tracker.hear({ball.p_FB.head<2>(), ball.v_FB.head<2>(), 10.0 - age, 0.1, landsIn}, 10.0);
+    tracker.hear({ball.p_FB.head<2>(), ball.v_FB.head<2>(), 10.0 - age, 10.0 - age, 0.1, landsIn}, 10.0);
     double flown = 0.0;
     for (; flown < age - 1e-9; flown += kCycleTime) stepBall(ball, kCycleTime);
     BallState told;
@@ -334,16 +334,16 @@ TEST(BallTracker, UsesTeamMatesByAge) {
   SelfState self;
   BallTracker tracker;
   BallState state;
-  tracker.hear({Vector2(4, 2), Vector2(0, 0), 9.5, 0.2}, 10.0);
+  tracker.hear({Vector2(4, 2), Vector2(0, 0), 9.5, 9.5, 0.2}, 10.0);
   tracker.fill(state, self, 10.0);
   EXPECT_TRUE(state.known);
   EXPECT_LT((state.p_FB.head<2>() - Vector2(4, 2)).norm(), 1e-6);
   // An older report does not move a newer one.
-  tracker.hear({Vector2(-8, 2), Vector2(0, 0), 9.0, 0.2}, 10.0);
+  tracker.hear({Vector2(-8, 2), Vector2(0, 0), 9.0, 9.0, 0.2}, 10.0);
   tracker.fill(state, self, 10.0);
   EXPECT_LT((state.p_FB.head<2>() - Vector2(4, 2)).norm(), 1e-6);
   // A rolling ball has moved on since.
-  tracker.hear({Vector2(0, 0), Vector2(2, 0), 11.0, 0.1}, 12.0);
+  tracker.hear({Vector2(0, 0), Vector2(2, 0), 11.0, 11.0, 0.1}, 12.0);
   tracker.fill(state, self, 12.0);
   EXPECT_NEAR(state.p_FB.x(), 2.0 / kRollDecay * (1.0 - std::exp(-kRollDecay)), 0.05);
 }

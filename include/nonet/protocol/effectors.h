@@ -34,6 +34,14 @@ struct Effectors {
   bool syn = false;
 
   void clear() { *this = Effectors{}; }
+  /// Leaves only the speeds, which hold until others come.
+  void keepSpeeds() {
+    scene.reset();
+    init.reset();
+    beam.reset();
+    say.reset();
+    pass = false;
+  }
   void setSpeed(model::JointId joint, double radPerSecond) {
     speeds[model::index(joint)] = radPerSecond;
     speedsPresent |= 1U << model::index(joint);

@@ -71,12 +71,12 @@ inline constexpr double kOldestSighting = 1.0;   // s, older ones cannot be told
 /// vote[player] = position, a permutation of 0..9.
 using RoleVote = std::array<std::uint8_t, kVoteSize>;
 
-/// A sighting of the ball as told to the team mates.
+/// The ball as told to the team mates: as it is now, though seen some time ago.
 struct SayBall {
   Vector2 p_FB = Vector2::Zero();  // m
   Vector2 v_FB = Vector2::Zero();  // m/s
   double age = 0.0;                // s since the sender saw it
-  double landsIn = 0.0;            // s after it was seen; 0: it rolls
+  double landsIn = 0.0;            // s from now; 0: it rolls
 };
 
 /// The sender will kick the ball to a team mate.

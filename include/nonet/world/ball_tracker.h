@@ -19,8 +19,9 @@ class BallTracker {
     Vector2 p_FB = Vector2::Zero();  // m
     Vector2 v_FB = Vector2::Zero();  // m/s
     double seenAt = kNever;          // server time of the mate's sighting, s
+    double toldAt = kNever;          // server time at which the ball was there, s: not before it was seen
     double sigma = 0.5;              // m
-    double landsIn = 0.0;            // s after it was seen; 0: it rolled
+    double landsIn = 0.0;            // s after it was told; 0: it rolled
   };
 
   void predict(double dt);
