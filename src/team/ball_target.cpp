@@ -5,6 +5,7 @@
 #include "nonet/math/direction.h"
 #include "nonet/math/straight_way.h"
 #include "nonet/team/ball_play.h"
+#include "nonet/world/ball_law.h"
 
 namespace nonet::team {
 
@@ -71,7 +72,10 @@ Vector2 aroundOpponents(const world::WorldState& world, const BallTargetParamete
     bestScore = score;
     best = straight + turn;
   }
-  return best != straight ? Vector2(ball + p.around * unitVector(best)) : target;
+  if (best == straight) return target;
+  // Beyond where a rolling ball comes to rest, so that it never lies behind the ball.
+  const double rolls = world.ball.v_FB.head<2>().norm() / world::kRollDecay;
+  return ball + (p.around + rolls) * unitVector(best);
 }
 
 }  // namespace

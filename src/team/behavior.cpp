@@ -13,6 +13,12 @@ namespace nonet::team {
 
 namespace {
 
+// Of who looks for the ball, s.
+constexpr double kSeen = 2.0;       // it is where it was seen so lately
+constexpr double kTold = 0.6;       // or where a mate has told so lately:
+constexpr double kLookEvery = 3.0;  // once in this time
+constexpr double kLookFor = 1.0;    // it looks there for so long
+
 // Along the way, for a moment, if the ball lies elsewhere and may be left unseen.
 std::optional<motion::HeadRequest> glance(const Situation& s, const Action& action) {
   const GlanceParameters& p = s.parameters.glance;
@@ -42,7 +48,11 @@ Tidings tidingsOf(const Situation& situation) {
 // was in sight no more often.
 motion::HeadRequest lookAtBall(const world::WorldState& world) {
   motion::HeadRequest head;
-  const bool recently = world.ball.known && world.time - world.ball.lastSeen < 2.0;
+  const double unseen = world.time - world.ball.lastSeen;
+  // Where mates say it is, by turns with looking around: they may be wrong.
+  const bool told =
+      world.time - world.ball.lastReported < kTold && std::fmod(unseen - kSeen, kLookEvery) < kLookFor;
+  const bool recently = world.ball.known && (unseen < kSeen || told);
   const bool lost = !world.self.localized && world.time - world.self.lastCorrection > 1.0;
   if (!recently || lost) return head;
   head.kind = motion::HeadRequest::Kind::Point;

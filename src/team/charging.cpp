@@ -14,6 +14,7 @@ namespace {
 // Of the way's heading while one goes slowly; no play depends on it.
 constexpr double kTurnGain = 2.0;   // 1/s
 constexpr double kTurnSpeed = 1.0;  // rad/s
+constexpr double kStopGain = 1.9;   // 1/s, slower still where it is to stop
 
 double angleBetween(const Vector2& a, const Vector2& b) {
   return std::abs(angleDifference(directionOf(a), directionOf(b)));
@@ -48,8 +49,9 @@ std::optional<motion::MotionRequest> spareOpponents(const Situation& s,
     return player.known && !player.fallen && wouldCharge(s, player, way);
   });
   if (!charges) return std::nullopt;
+  const double slow = walk->stopAtTarget ? std::min(speed, kStopGain * step.norm()) : speed;
   const double turn = std::clamp(kTurnGain * walk->target.rotation, -kTurnSpeed, kTurnSpeed);
-  return motion::WalkVelocity{Pose2(speed * step.normalized(), turn)};
+  return motion::WalkVelocity{Pose2(slow * step.normalized(), turn)};
 }
 
 }  // namespace nonet::team

@@ -11,6 +11,8 @@ namespace nonet::team {
 
 namespace {
 
+constexpr double kBeforeBall = 0.3;  // m that a goalie on guard keeps from the ball
+
 world::BallMotion inFrame(const Pose2& X_RF, const world::BallMotion& ball) {
   const Vector2 p = X_RF * Vector2(ball.p_FB.head<2>());
   const Vector2 v = Pose2(0.0, 0.0, X_RF.rotation) * Vector2(ball.v_FB.head<2>());
@@ -32,7 +34,8 @@ bool mayGoTo(const Vector2& p_F, const Situation& s) {
 Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters) {
   const Vector2 goal = field.ownGoal();
   const double distance = (p_FB - goal).norm();
-  const double out = std::min(parameters.outOfGoal, parameters.outShare * distance);
+  const double out =
+      std::min(parameters.outOfGoal, std::max(0.0, parameters.outShare * distance - kBeforeBall));
   Vector2 place = goal + out * (p_FB - goal).normalized();
   place.x() = std::max(place.x(), goal.x() + parameters.inFrontOfLine);
   const Vector2 way = p_FB - place;
@@ -88,7 +91,8 @@ bool goalieWantsBall(const Situation& s, bool claims) {
   const auto& mates = s.world.teammates;
   const bool mateSooner = std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
     const Runner runner{mate.X_FP, mate.headingKnown, mate.fallen};
-    return mate.known && timeToBall(runner, s.forecast, target, pace) < own + margin;
+    const bool banned = &mate - mates.data() == s.banned;
+    return mate.known && !banned && timeToBall(runner, s.forecast, target, pace) < own + margin;
   });
   if (mateSooner) return false;
   // Nor is it left alone in front of an opponent that shoots before it comes.

@@ -53,13 +53,13 @@ double receiverFirst(const Situation& s, const world::PlayerState& mate, const P
   return probabilityFirst(std::max(ours, 0.0), theirs, p.arrivalSpread);
 }
 
-// Zero: it will hardly arrive. `left`: s until an opponent plays the ball where it lies.
-double valueOf(const Situation& s, const world::PlayerState& mate, const Pass& pass,
-               const Resistance& resistance, double left) {
+// Nothing if it will hardly arrive. `left`: s until an opponent plays the ball where it lies.
+std::optional<double> valueOf(const Situation& s, const world::PlayerState& mate, const Pass& pass,
+                              const Resistance& resistance, double left) {
   const PassParameters& p = s.parameters.pass;
   const Block& block = resistance.block;
   const double ours = receiverFirst(s, mate, pass, resistance.arrival);
-  if (ours < p.ours || block.probability > p.lane) return 0.0;
+  if (ours < p.ours || block.probability > p.lane) return std::nullopt;
   const double comesOff = probabilityFirst(pass.untilKick, left, s.parameters.choice.setupSpread);
   const double played = (1.0 - block.probability) * valueAt(s, pass.p_FTarget, ours) +
                         block.probability * valueAt(s, block.p_F, kStopped);
@@ -91,7 +91,9 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
         Pass pass{unum, target, kick.name};
         pass.untilKick = timeToContact(s, kick.head, directionOf(way) - kick.head.direction);
         pass.untilThere = pass.untilKick + p.rollTime;
-        pass.value = valueOf(s, mate, pass, *resistance, left);
+        const std::optional<double> value = valueOf(s, mate, pass, *resistance, left);
+        if (!value) continue;
+        pass.value = *value;
         if (present && (*present - target).norm() < p.same) pass.value += p.keep;
         if (record != nullptr) record->add(target, pass.value);
         if (pass.value <= most) continue;

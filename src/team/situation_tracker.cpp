@@ -17,6 +17,7 @@ Situation SituationTracker::update(const world::WorldState& world, const motion:
   voting_.update(situation, banned);
   situation.role = world.game.unum == 1 ? Role::Goalie : voting_.role();
   situation.onBall = voting_.onBall();
+  situation.banned = banned;
   situation.mayTouch = banned != world.game.unum;
   if (touches_.barred() == world.game.unum) situation.mayScore = false;
   if (situation.role == Role::Goalie) {

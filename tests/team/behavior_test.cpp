@@ -90,6 +90,23 @@ TEST_F(Stage, WhoWalksFarFromTheBallLooksAlongItsWayNowAndThen) {
   EXPECT_NEAR(along / static_cast<double>(along + atBall), p.length / p.every, 0.15);
 }
 
+// It has not seen the ball for a while; a mate tells where it is, right or wrong.
+TEST(LookAtBall, WhereAMateSaysItIsByTurnsWithLookingAround) {
+  Scene scene;
+  scene.world.ball.lastReported = scene.world.time - 0.3;
+  const auto looks = [&](double unseen) {
+    scene.world.ball.lastSeen = scene.world.time - unseen;
+    return lookAtBall(scene.world).kind == motion::HeadRequest::Kind::Point;
+  };
+  EXPECT_TRUE(looks(0.1));
+  EXPECT_TRUE(looks(2.2)) << "as soon as it does not know itself any more";
+  EXPECT_FALSE(looks(4.0)) << "it was not there";
+  EXPECT_TRUE(looks(5.5));
+  scene.world.ball.lastReported = scene.world.time - 1.0;
+  EXPECT_FALSE(looks(2.2));
+  EXPECT_TRUE(looks(1.9));
+}
+
 TEST_F(Stage, TheSameWorldsGiveTheSameActions) {
   Behavior other(scene.parameters);
   for (int i = 0; i < 100; ++i) {

@@ -49,6 +49,18 @@ TEST(Charging, SlowsDownWhereTheWayLeadsToTheOpponentRatherThanTheBall) {
   EXPECT_FALSE(std::isinf(speedTowards(sceneWith({0.1, 0.4}, {0.45, 0.0}))));
 }
 
+TEST(Charging, ComesNoFasterToAPlaceThanItWouldAnyway) {
+  const Scene scene = sceneWith({0.6, 0.0}, {0.45, 0.1});
+  const auto speed = [&](double left, bool stops) {
+    const auto slowly =
+        spareOpponents(scene.situation(Role::OnBall), motion::WalkTo{Pose2(left, 0.0, 0.0), stops});
+    return std::get<motion::WalkVelocity>(slowly.value()).velocity.translation.x();
+  };
+  EXPECT_LT(speed(0.05, true), 0.1);
+  EXPECT_NEAR(speed(0.05, false), TeamParameters{}.charging.speed, 1e-9);
+  EXPECT_NEAR(speed(0.4, true), TeamParameters{}.charging.speed, 1e-9);
+}
+
 TEST(Charging, StillTurnsWhereTheWayTurns) {
   const Scene scene = sceneWith({0.6, 0.0}, {0.45, 0.1});
   const auto slowly =

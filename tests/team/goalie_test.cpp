@@ -137,6 +137,39 @@ TEST(Goalie, NarrowsTheAngle) {
   }
 }
 
+TEST(Goalie, DoesNotWaitForAMateThatMayNotTouchTheBall) {
+  Scene scene = goalieScene({-13.3, 0.3}, {0.0, 0.0});
+  Scene::put(scene.world.teammates[3], Pose2(-13.6, 0.3, 0.0));
+  Situation s = scene.situation(Role::Goalie);
+  EXPECT_FALSE(goalieWantsBall(s, false)) << "the mate is there";
+  s.banned = 3;
+  EXPECT_TRUE(goalieWantsBall(s, false));
+}
+
+TEST(Goalie, NeverGuardsWhereTheBallLies) {
+  for (double ahead = 0.55; ahead < 2.0; ahead += 0.05) {
+    const Vector2 ball(-15.0 + ahead, 0.2);
+    const Pose2 place = guardPlace(ball, {}, {});
+    EXPECT_GT((ball - place.translation).norm(), 0.25) << ahead;
+    EXPECT_LT(place.translation.x(), ball.x()) << ahead;
+  }
+}
+
+TEST(Goalie, GoesAroundABallThatHasPassedIt) {
+  Scene scene = goalieScene({-14.2, 0.05}, {0.0, 0.0});
+  scene.stand(Pose2(-13.5, 0.0, kPi));
+  Situation s = scene.situation(Role::Goalie);
+  s.claims = false;
+  const std::optional<Action> action = guardGoal(s);
+  ASSERT_TRUE(action);
+  const auto* walk = std::get_if<motion::WalkTo>(&action->motion);
+  ASSERT_NE(walk, nullptr);
+  const Vector2 way = walk->target.translation;
+  const Vector2 toBall = scene.world.ball.p_RB.head<2>();
+  const double along = std::clamp(way.dot(toBall) / way.squaredNorm(), 0.0, 1.0);
+  EXPECT_GT((toBall - along * way).norm(), 0.2);
+}
+
 TEST(Goalie, LeavesTheBallOfAnOpponentThatIsSoonerUnlessItIsAtTheGoal) {
   Scene scene = goalieScene({-13.3, 0.3}, {0.0, 0.0});
   EXPECT_TRUE(scene.situation(Role::Goalie).claims) << "alone";

@@ -71,6 +71,22 @@ TEST(Pass, NotToWhereAnOpponentIsFirst) {
   EXPECT_FALSE(scene.best());
 }
 
+// Near the own goal, with an opponent in the way, going on is worth less than nothing.
+TEST(Pass, AHopelessOneIsNoneNearTheOwnGoalEither) {
+  Passing scene;
+  scene.putBall({-10.0, 0.0});
+  scene.stand(Pose2(-10.2, 0.0, 0.3));
+  Scene::put(scene.world.opponents[3], Pose2(-8.6, -0.3, kPi));
+  Scene::put(scene.world.teammates[kReceiver], Pose2(-6.5, 2.5, 0.0));
+  Scene::put(scene.world.opponents[4], Pose2(0.5 * (scene.mate() + Vector2(-10.0, 0.0)), kPi));
+  EXPECT_FALSE(scene.best()) << "through an opponent";
+  scene.world.opponents[4].known = false;
+  for (int i = 0; i < 3; ++i)
+    Scene::put(scene.world.opponents[static_cast<std::size_t>(5 + i)],
+               Pose2(scene.mate() + Vector2(0.2 + i, 0.3 - 0.2 * i), kPi));
+  EXPECT_FALSE(scene.best()) << "to where an opponent is first";
+}
+
 TEST(Pass, NotBackwardsWhileTheWayIsFree) {
   Passing scene;
   scene.world.opponents[3].known = false;

@@ -39,6 +39,20 @@ TEST(Situation, AnOpponentCarriesTheBallThatItWalksAfterUnlessOneOfUsHasItNearer
 }
 
 // The geometry of the turn against the angle between two vectors, in fuzzed scenes.
+// However fast it rolls, and wherever it is met.
+TEST(Situation, ABallIsNeverMetBeyondItsTargetAroundAnOpponent) {
+  for (const double speed : {0.0, 2.0, 4.0, 6.0}) {
+    Scene scene;
+    scene.putBall({1.0, 0.0}, {speed, 0.0});
+    Scene::put(scene.world.opponents[4], Pose2(1.6, 0.1, kPi));
+    const Situation s = scene.situation(Role::OnBall);
+    const Vector2 way = s.p_FTarget - s.ball();
+    ASSERT_GT(std::abs(way.y()), 0.3) << "around it";
+    for (const double time : {0.0, 1.0, 5.0})
+      EXPECT_GT((s.p_FTarget - s.forecast.free().at(time)).dot(way), 0.0) << speed << " " << time;
+  }
+}
+
 TEST(Situation, TheOwnTurnDescribesTheBallAsTheRobotSeesIt) {
   Random random(8);
   for (int trial = 0; trial < 300; ++trial) {

@@ -35,6 +35,7 @@ struct Situation {
   Formation formation{};      // places of the field players' roles
   Role role = Role::Stopper;  // one's own
   int onBall = 0;             // number of the field player on the ball as agreed, 0 before any vote
+  int banned = 0;             // number of the team mate that may not touch the ball, 0: none
   bool mayTouch = true;       // false after a set piece that one has taken, until another touched the ball
   bool mayScore = true;       // false in the own pass mode and after one's kick in it, until a mate touched
   double undisturbed = 0.0;   // s that the referee keeps opponents off the ball (pass_mode.h)

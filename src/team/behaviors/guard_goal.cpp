@@ -13,6 +13,10 @@ std::optional<Action> guardGoal(const Situation& s) {
   Caution caution;
   caution.robots = p.room;
   caution.ball = s.mayTouch ? 0.0 : p.room;
+  // A ball that it has behind it is not pushed into the own goal on the way back.
+  const Vector2 goal = s.world.field.ownGoal();
+  const double own = (s.world.self.X_FR.translation - goal).norm();
+  if ((s.ball() - goal).norm() < own) caution.wayToBall = p.room;
   const Pose2 place = guardPlace(s.ball(), s.world.field, p);
   const Pose2 pose(place.translation, headingTo(s.world, s.ball()));
   return Action(walkTo(s.world, s.parameters.navigation, pose, caution), "angle");
