@@ -12,7 +12,7 @@ using world::Posture;
 
 namespace {
 
-constexpr double kStandsAgain = 2.0;  // s upright until a fall counts as a new one
+constexpr double kStandsAgain = 0.8;  // s upright until a fall counts as a new one
 constexpr double kLowest = 0.5;       // share of the standing height: below it the robot will not sway up
 constexpr int kVariants = 3;
 

@@ -169,7 +169,7 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   comesToStand_ = step.inPlace;
   step.aim = {then.ball, way.turn, walk.odometryStep().translation / kCycleTime,
               (request.target - request.ball).norm()};
-  step.begin = step.inPlace && (quietly || (head.fromWalk && stepEnds(walk.gait(), chosen_->foot, p)));
+  step.begin = step.inPlace && (head.fromWalk ? stepEnds(walk.gait(), chosen_->foot, p) : quietly);
   step.stand = step.inPlace && !head.fromWalk;
   if (head.isExact()) {
     const bool lies = within(kAbout, way) && (steady_ == 0.0 || steadyFor_ == chosen_);

@@ -147,11 +147,41 @@ TEST(KickChoice, ExactKicksAreForThoseWhoAskForOne) {
   EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option, nullptr);
 }
 
+// On the spot, up to the end of a step that stands on this foot.
+void stepUntilItStandsOn(Side foot, WalkEngine& walk) {
+  world::BodyState body;
+  body.cycleTime = kCycleTime;
+  WalkCommand command;
+  command.walk = true;
+  JointTargets targets;
+  for (int i = 0;
+       i < 200 && (walk.standing() || walk.gait().stance != foot || walk.gait().phase < 1.0 - 1e-6); ++i)
+    walk.update(body, WalkParameters{}, command, targets);
+}
+
+TEST(KickChoice, AKickOutOfTheWalkBeginsWhereAStepEndsAndNotFromAStand) {
+  Kicks kicks(
+      "skill kick_k { kick { ball (0.2m, 5cm) within (3cm, 3cm) distance 3m..14m contact 0.3s from walk } }");
+  KickTo kick;
+  kick.ball = {0.2, 0.05};
+  kick.target = {10.0, 0.05};
+  KickControl control(kicks.catalogue, KickParameters{});
+  EXPECT_TRUE(control.update(kick, kicks.walk, 1.0).inPlace);
+  EXPECT_FALSE(control.update(kick, kicks.walk, 1.0).begin) << "stands";
+  stepUntilItStandsOn(Side::Right, kicks.walk);
+  EXPECT_FALSE(control.update(kick, kicks.walk, 0.0).begin) << "on the other foot";
+  stepUntilItStandsOn(Side::Left, kicks.walk);
+  const KickStep now = control.update(kick, kicks.walk, 0.0);
+  ASSERT_EQ(now.option->foot, Side::Left);
+  EXPECT_TRUE(now.begin);
+}
+
 // It begins once the ball has lain about in its place, within twice the tolerance, for so long.
 TEST(KickChoice, AKickThatIsToBeExactWaitsUntilTheBallHasLainInItsPlace) {
-  const Kicks kicks(
+  Kicks kicks(
       "skill kick_exact { kick { ball (0.2m, 5cm) within (5mm, 5mm) for 0.1s direction 0deg within 4deg "
       "distance 3m..14m contact 0.3s from walk } }");
+  stepUntilItStandsOn(Side::Left, kicks.walk);
   KickControl control(kicks.catalogue, KickParameters{});
   const auto begins = [&](double ahead, double turn = 0.0) {
     KickTo kick;
