@@ -38,7 +38,6 @@ TEST(Situation, AnOpponentCarriesTheBallThatItWalksAfterUnlessOneOfUsHasItNearer
   EXPECT_LT((scene.situation(Role::OnBall).forecast.at(1.0) - Vector2(0.5, 0.0)).norm(), 1e-9);
 }
 
-// The geometry of the turn against the angle between two vectors, in fuzzed scenes.
 // However fast it rolls, and wherever it is met.
 TEST(Situation, ABallIsNeverMetBeyondItsTargetAroundAnOpponent) {
   for (const double speed : {0.0, 2.0, 4.0, 6.0}) {
@@ -53,6 +52,7 @@ TEST(Situation, ABallIsNeverMetBeyondItsTargetAroundAnOpponent) {
   }
 }
 
+// The geometry of the turn against the angle between two vectors, in fuzzed scenes.
 TEST(Situation, TheOwnTurnDescribesTheBallAsTheRobotSeesIt) {
   Random random(8);
   for (int trial = 0; trial < 300; ++trial) {

@@ -381,38 +381,40 @@ protocol::Percept hearing(const protocol::Percept& percept, const protocol::SayM
   return changed;
 }
 
-// A mate tells where the ball is, however long ago it has seen it: two cycles later it has rolled for two.
-TEST(WorldModel, ABallThatIsToldIsWhereItWasToldAndRollsOnFromThere) {
-  for (const double age : {0.0, 0.3, 0.5}) {
-    Scene scene(TeamSide::Left, Pose2(-3.0, 0.0, kPi));
-    WorldModel world(model::robotModel(0), {}, protocol::TeamName("Us"), 1);
+// Looks away from the ball and the others, and hears number 8.
+struct Listener {
+  Listener() {
     for (int i = 0; i < 60; ++i) world.update(scene.next());
-    protocol::SayMessage message;
     message.unum = 8;
     message.X_FR = Pose2(6.0, 4.0, 1.0);
     message.sigma = 0.1;
-    message.ball = protocol::SayMessage::Ball{Vector2(2.0, 1.0), Vector2(3.0, 0.0), age};
-    world.update(hearing(scene.next(), message));
-    EXPECT_LT((world.state().ball.p_FB.head<2>() - Vector2(2.0 + 3.0 * 0.04, 1.0)).norm(), 0.15) << age;
+  }
+  const WorldState& hears() { return world.update(hearing(scene.next(), message)); }
+
+  Scene scene{TeamSide::Left, Pose2(-3.0, 0.0, kPi)};
+  WorldModel world{model::robotModel(0), {}, protocol::TeamName("Us"), 1};
+  protocol::SayMessage message;
+};
+
+// A mate tells where the ball is, however long ago it has seen it: two cycles later it has rolled for two.
+TEST(WorldModel, ABallThatIsToldIsWhereItWasToldAndRollsOnFromThere) {
+  for (const double age : {0.0, 0.3, 0.5}) {
+    Listener robot;
+    robot.message.ball = protocol::SayMessage::Ball{Vector2(2.0, 1.0), Vector2(3.0, 0.0), age};
+    const BallState& ball = robot.hears().ball;
+    EXPECT_LT((ball.p_FB.head<2>() - Vector2(2.0 + 3.0 * 0.04, 1.0)).norm(), 0.15) << age;
   }
 }
 
 // One that fell tells a place that it is not sure of itself.
 TEST(WorldModel, AMatesPoorPlaceDoesNotReplaceAGoodOneButItsFallCounts) {
-  Scene scene(TeamSide::Left, Pose2(-3.0, 0.0, kPi));
-  WorldModel world(model::robotModel(0), {}, protocol::TeamName("Us"), 1);
-  for (int i = 0; i < 60; ++i) world.update(scene.next());
-  protocol::SayMessage message;
-  message.unum = 8;
-  message.X_FR = Pose2(6.0, 4.0, 1.0);
-  message.sigma = 0.1;
-  world.update(hearing(scene.next(), message));
-  message.X_FR = Pose2(2.0, 4.0, 1.0);
-  message.sigma = 3.0;
-  message.fallen = true;
-  world.update(hearing(scene.next(), message));
-  world.update(scene.next());
-  const PlayerState& mate = world.state().teammates[8];
+  Listener robot;
+  robot.hears();
+  robot.message.X_FR = Pose2(2.0, 4.0, 1.0);
+  robot.message.sigma = 3.0;
+  robot.message.fallen = true;
+  robot.hears();
+  const PlayerState& mate = robot.world.update(robot.scene.next()).teammates[8];
   ASSERT_TRUE(mate.known);
   EXPECT_TRUE(mate.fallen);
   EXPECT_LT((mate.X_FP.translation - Vector2(6.0, 4.0)).norm(), 0.2);
