@@ -7,10 +7,15 @@
 
 #include "nonet/math/direction.h"
 #include "nonet/team/own_area.h"
+#include "nonet/team/set_play.h"
 
 namespace nonet::team {
 
 namespace {
+
+// At the own kick-off.
+constexpr int kReceiver = 6;
+constexpr int kTaker = 8;
 
 // What a place must keep: distance from the more important places, nobody but the nearer back with the goalie
 // in the own penalty area (illegal defence, server facts 4.10), backs on the own side of the ball.
@@ -139,7 +144,6 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
                   const SetPlayParameters& parameters) {
   // For the 30 x 20 field; other sizes are scaled. The kicking side may stand at the ball, the other one must
   // be outside the centre circle (radius 2).
-  constexpr int kKickOffTaker = 9;
   struct Place {
     double ownX, ownY, otherX, otherY;
   };
@@ -149,10 +153,10 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
       {-9.0, -2.0, -9.0, -2.0},
       {-4.5, 4.5, -4.5, 4.0},  // wings
       {-4.5, -4.5, -4.5, -4.0},
-      {-0.7, -1.25, -2.6, 1.0},  // receiver of the kick-off
+      {-1.0, -3.0, -2.6, 1.0},   // receiver of the own kick-off: see below
       {-0.6, 5.0, -2.6, 3.2},    // forwards
-      {-0.6, -5.0, -2.6, -3.2},
       {-0.35, 0.4, -2.6, -1.0},  // takes the kick-off
+      {-0.6, -5.0, -2.6, -3.2},
       {-6.0, 0.0, -6.0, 0.0},
       {-11.0, 0.0, -11.0, 0.0},
   }};
@@ -163,8 +167,22 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
   const double x = ownKickOff ? place.ownX : place.otherX;
   const double y = ownKickOff ? place.ownY : place.otherY;
   const bool atBall = std::abs(x) < field.circleRadius && std::abs(y) < field.circleRadius;
-  const bool taker = ownKickOff && unum == kKickOffTaker;
+  if (ownKickOff && unum == kReceiver)
+    return {setPlayFor(world::Phase::OwnKickOff, Vector2::Zero(), field, parameters).p_FReceiver, 0.0};
+  const bool taker = ownKickOff && unum == kTaker;
   return {x < -3.0 ? x * scaleX : x, atBall ? y : y * scaleY, taker ? parameters.kickOffAngle : 0.0};
+}
+
+Formation kickOffFormation(const Vector2& p_FB, const world::FieldGeometry& field,
+                           const SetPlayParameters& parameters) {
+  // The numbers that the roles fall to when nobody is missing; the last two play eleven a side.
+  constexpr std::array<int, kFieldRoles> kNumbers = {kTaker, kReceiver, 2, 3, 4, 5, 7, 9, 10, 11};
+  Formation formation;
+  formation.count = kFieldRoles;
+  formation.positions[0] = p_FB;
+  for (std::size_t i = 1; i < kNumbers.size(); ++i)
+    formation.positions[i] = kickOffPose(kNumbers[i], true, field, parameters).translation;
+  return formation;
 }
 
 }  // namespace nonet::team

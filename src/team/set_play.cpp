@@ -43,8 +43,10 @@ SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGe
   const double angle = direction(phase, p_FB, field, parameters);
   const Vector2 along = unitVector(angle);
   SetPlay play;
-  play.p_FTarget = p_FB + 2.0 * parameters.passLength * along;
-  play.p_FReceiver = p_FB + parameters.passLength * along - Vector2(parameters.behindPass, 0.0);
+  play.kicked = phase == world::Phase::OwnKickOff;
+  const double length = play.kicked ? parameters.kickOffLength : parameters.passLength;
+  play.p_FTarget = p_FB + (play.kicked ? 1.0 : 2.0) * length * along;
+  play.p_FReceiver = p_FB + length * along - Vector2(parameters.behindPass, 0.0);
   const double edge = field.touchLine() - parameters.receiverMargin;
   play.p_FReceiver.y() = std::clamp(play.p_FReceiver.y(), -edge, edge);
   return play;

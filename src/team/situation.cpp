@@ -18,6 +18,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Formation placesFor(const Situation& s) {
   const world::WorldState& world = s.world;
+  if (s.phase() == world::Phase::OwnKickOff)
+    return kickOffFormation(s.ball(), world.field, s.parameters.setPlay);
   FormationParameters parameters = s.parameters.formation;
   if (world::isOpponentSetPiece(s.phase())) {
     // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
@@ -25,14 +27,8 @@ Formation placesFor(const Situation& s) {
   }
   // The stopper is the receiver of the own set piece, so whoever is next to that place is the stopper.
   const std::optional<Vector2> receiver = s.setPlay ? std::optional(s.setPlay->p_FReceiver) : std::nullopt;
-  Formation places = formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant,
-                                  world.opponents, receiver);
-  if (s.phase() != world::Phase::OwnKickOff) return places;
-  for (int i = 1; i < places.count; ++i) {
-    double& x = places.positions[static_cast<std::size_t>(i)].x();
-    x = std::min(x, -s.parameters.setPlay.kickOffLine);
-  }
-  return places;
+  return formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant, world.opponents,
+                      receiver);
 }
 
 // Straight away from the own goal.
@@ -49,6 +45,17 @@ bool receiverReady(const Situation& s) {
   });
 }
 
+// Goes as far as it is asked to, and this far; nothing without such a kick.
+const motion::KickOption* kickThatGoes(const Situation& s, double distance) {
+  const auto serves = [&](const motion::KickOption& kick) {
+    const motion::KickHead& head = kick.head;
+    return kick.foot == model::Side::Left && head.isStraight() && head.scales && !head.isChip() &&
+           distance >= head.shortest && distance <= head.longest;
+  };
+  const auto found = std::find_if(s.motion.kicks.begin(), s.motion.kicks.end(), serves);
+  return found == s.motion.kicks.end() ? nullptr : &*found;
+}
+
 // A kick to where one of us is first, if that is worth more than the pass to the one who stands next to it.
 BallPlay setPiece(const Situation& s, Candidates* record) {
   if (s.phase() != world::Phase::OwnKickOff) {
@@ -62,7 +69,14 @@ BallPlay setPiece(const Situation& s, Candidates* record) {
   }
   const double waited = s.world.time - s.world.game.phaseSince;
   const bool wait = waited < s.parameters.waitForReceiver && !receiverReady(s);
-  return playTowards(s, s.setPlay->p_FTarget, KickUse::Never, wait);
+  BallPlay play = playTowards(s, s.setPlay->p_FTarget, KickUse::Never, wait);
+  if (!s.setPlay->kicked) return play;
+  // Whoever walks sideways into the ball touches it twice.
+  if (const auto* kick = kickThatGoes(s, (play.p_FTarget - s.ball()).norm())) {
+    play.use = KickUse::Clear;
+    play.kick = kick->name;
+  }
+  return play;
 }
 
 }  // namespace

@@ -26,7 +26,6 @@ void expectPlayable(world::Phase phase, const Vector2& ball) {
 }
 
 TEST(SetPlay, TheReceiverStandsWhereTheBallGoes) {
-  expectPlayable(world::Phase::OwnKickOff, {0.0, 0.0});
   for (const double side : {-1.0, 1.0}) {
     for (double x = -14.0; x <= 14.0; x += 1.0) expectPlayable(world::Phase::OwnKickIn, {x, side * 9.958});
     expectPlayable(world::Phase::OwnCorner, {14.958, side * 5.483});
@@ -53,8 +52,16 @@ TEST(SetPlay, TheReceiverOfAGoalKickDoesNotChangeSidesWithTheNoise) {
   EXPECT_LT((receiver(0.01) - receiver(-0.01)).norm(), 0.03);
 }
 
-TEST(SetPlay, TheKickOffPassStaysInTheOwnHalf) {
-  EXPECT_LT(setPlayFor(world::Phase::OwnKickOff, {0.0, 0.0}, {}, {}).p_FTarget.x(), 0.0);
+TEST(SetPlay, TheKickOffPassStaysInTheOwnHalfAndComesToRestBeforeTheReceiver) {
+  const SetPlay play = setPlayFor(world::Phase::OwnKickOff, {0.0, 0.0}, {}, {});
+  EXPECT_TRUE(play.kicked);
+  EXPECT_LT(play.p_FTarget.x(), 0.0);
+  const Vector2 ahead = play.p_FTarget - play.p_FReceiver;
+  EXPECT_GT(ahead.x(), 0.3);
+  EXPECT_LT(ahead.x(), 0.6);
+  EXPECT_NEAR(ahead.y(), 0.0, 1e-9);
+  // The opponents set off 2 m from the ball when it is kicked, which takes it some 2 s.
+  EXPECT_GT(play.p_FTarget.norm(), 2.0);
 }
 
 }  // namespace

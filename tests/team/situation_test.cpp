@@ -1,7 +1,9 @@
 #include "nonet/team/situation.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -109,6 +111,39 @@ TEST(Situation, WhoIsAloneAgainstAGoalieTakesTheKickOffTowardsTheGoal) {
   EXPECT_TRUE(withMate.play->wait) << "for the receiver";
 }
 
+// A push is a touch of each foot, and the second one is a free kick for the others.
+TEST(Situation, TheKickOffIsKickedIfAKickGoesAsFarAsItIsAskedTo) {
+  Scene scene;
+  scene.world.game.phase = world::Phase::OwnKickOff;
+  scene.world.game.phaseSince = scene.world.time - 1.0;
+  scene.putBall({0.0, 0.0});
+  scene.stand(Pose2(-0.1, 0.3, scene.parameters.setPlay.kickOffAngle));
+  Scene::put(scene.world.teammates[6], Pose2(-1.0, -3.0, 0.0));
+  Scene::put(scene.world.teammates[7], Pose2(-0.6, 5.0, 0.0));
+  motion::KickOption pass = scene.motion.kicks.front();
+  pass.name = "as far as asked";
+  pass.head.scales = true;
+  pass.head.shortest = 2.0;
+  pass.head.longest = 6.0;
+  const std::array kicks{scene.motion.kicks.front(), pass};
+
+  const Situation pushed = scene.situation(Role::OnBall);
+  ASSERT_TRUE(pushed.play);
+  EXPECT_EQ(pushed.play->use, KickUse::Never) << "no such kick";
+  scene.motion.kicks = kicks;
+  const Situation kicked = scene.situation(Role::OnBall);
+  ASSERT_TRUE(kicked.play);
+  EXPECT_EQ(kicked.play->use, KickUse::Clear);
+  EXPECT_EQ(kicked.play->kick, pass.name);
+  EXPECT_FALSE(kicked.play->wait) << "the receiver stands there";
+  EXPECT_FALSE(dribble(kicked));
+  const Action action = decide(kicked);
+  EXPECT_TRUE(std::holds_alternative<motion::KickTo>(action.motion)) << action.reason.behavior;
+
+  Scene::put(scene.world.teammates[6], Pose2(-6.0, -3.0, 0.0));
+  EXPECT_TRUE(scene.situation(Role::OnBall).play->wait) << "for the receiver";
+}
+
 // Roles are given by the places that are taken: else the one who stands ready leaves and another must come.
 TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
   const std::pair<world::Phase, Vector2> kPieces[] = {{world::Phase::OwnKickOff, {0.0, 0.0}},
@@ -124,8 +159,7 @@ TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
     ASSERT_TRUE(s.setPlay);
     EXPECT_LT((s.formation.positions[1] - s.setPlay->p_FReceiver).norm(), 0.5);
     for (int i = 1; i < s.formation.count && phase == world::Phase::OwnKickOff; ++i)
-      EXPECT_LE(s.formation.positions[static_cast<std::size_t>(i)].x(),
-                -scene.parameters.setPlay.kickOffLine);
+      EXPECT_LE(s.formation.positions[static_cast<std::size_t>(i)].x(), -0.5) << "in the own half";
     for (int i = 2; i < s.formation.count; ++i)
       EXPECT_GT((s.formation.positions[static_cast<std::size_t>(i)] - s.setPlay->p_FReceiver).norm(), 0.7)
           << "nobody else is to stand there: " << i << " at ball " << ball.transpose();

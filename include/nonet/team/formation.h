@@ -61,4 +61,8 @@ std::optional<Places> variantPlaces(const Vector2& p_FB, const world::FieldGeome
 Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
                   const SetPlayParameters& parameters);
 
+/// The places of the roles while we have the kick-off: where their players were beamed to.
+Formation kickOffFormation(const Vector2& p_FB, const world::FieldGeometry& field,
+                           const SetPlayParameters& parameters);
+
 }  // namespace nonet::team

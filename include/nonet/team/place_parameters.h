@@ -118,6 +118,7 @@ struct SetPlayParameters {
   double goalKickAngle = toRadians(35);
   double cornerBack = 2.0;
   double kickOffAngle = toRadians(-100);
+  double kickOffLength = 3;
   double kickOffLine = 0.6;
 
   template <class Self, class Visitor>
@@ -153,11 +154,13 @@ struct SetPlayParameters {
            fixed,
            "Kick-off: to the right and a little back, away from the opponents"},
           self.kickOffAngle);
+    visit({"kickOffLength", Unit::Metre, {0.5, 10}, fixed, "Kick-off: how far the ball is kicked"},
+          self.kickOffLength);
     visit({"kickOffLine",
            Unit::Metre,
            {0, 5},
            fixed,
-           "Kick-off: all but the taker stay this far behind the halfway line"},
+           "The others' kick-off: we stay this far behind the halfway line"},
           self.kickOffLine);
   }
 };

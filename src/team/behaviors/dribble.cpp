@@ -65,6 +65,7 @@ std::optional<Action> runThrough(const Situation& s) {
 
 std::optional<Action> dribble(const Situation& s) {
   if (!s.play) return std::nullopt;
+  if (s.setPlay && s.play->use == KickUse::Clear) return std::nullopt;  // kicked, or it is a second touch
   const bool keep = s.play->keep.has_value() || s.parameters.dribble.steer;
   std::optional<Action> action = keep ? steer(s) : runThrough(s);
   if (action) action->reason.candidates = s.play->candidates;
