@@ -113,8 +113,11 @@ double kickValue(const Situation& s, double direction, double length, bool maySc
 }
 
 BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
-  BallChoice best{
-      false, s.setPlay->p_FTarget, valueAt(s, s.setPlay->p_FReceiver, s.parameters.choice.shortPass), {}};
+  const Vector2& p_FReceiver = s.setPlay->p_FReceiver;
+  const ChoiceParameters& p = s.parameters.choice;
+  const double first =
+      probabilityFirst(teammatesTime(s, p_FReceiver), opponentsTime(s, p_FReceiver), p.arrivalSpread);
+  BallChoice best{false, s.setPlay->p_FTarget, valueAt(s, p_FReceiver, p.shortPass * first), {}};
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.setPlay->p_FReceiver, best.value);
   weighKicks(s, {0.0, 0, kAllDirections - 1}, record, best,

@@ -20,11 +20,12 @@ double direction(world::Phase phase, const Vector2& p_FB, const world::FieldGeom
     case world::Phase::OwnKickIn: {
       // Near the corner more across the field: the push must not roll over the goal line.
       const double room = field.goalLine() - parameters.receiverMargin - p_FB.x();
-      const double sharpest = std::acos(std::clamp(room / (2.0 * parameters.passLength), -1.0, 1.0));
+      const double sharpest = std::acos(std::clamp(room / parameters.passLength, -1.0, 1.0));
       return inwards * std::max(parameters.kickInAngle, sharpest);
     }
     case world::Phase::OwnCorner: {
-      const Vector2 way = Vector2(field.goalLine() - parameters.cornerBack, 0.0) - p_FB;
+      const Vector2 place(field.goalLine() - parameters.cornerBack, -inwards * parameters.cornerAside);
+      const Vector2 way = place - p_FB;
       return directionOf(way);
     }
     case world::Phase::OwnGoalKick:  // the ball lies in the middle: always to the same side
@@ -43,9 +44,8 @@ SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGe
   const double angle = direction(phase, p_FB, field, parameters);
   const Vector2 along = unitVector(angle);
   SetPlay play;
-  play.kicked = phase == world::Phase::OwnKickOff;
-  const double length = play.kicked ? parameters.kickOffLength : parameters.passLength;
-  play.p_FTarget = p_FB + (play.kicked ? 1.0 : 2.0) * length * along;
+  const double length = phase == world::Phase::OwnCorner ? parameters.cornerLength : parameters.passLength;
+  play.p_FTarget = p_FB + length * along;
   play.p_FReceiver = p_FB + length * along - Vector2(parameters.behindPass, 0.0);
   const double edge = field.touchLine() - parameters.receiverMargin;
   play.p_FReceiver.y() = std::clamp(play.p_FReceiver.y(), -edge, edge);

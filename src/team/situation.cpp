@@ -70,8 +70,7 @@ BallPlay setPiece(const Situation& s, Candidates* record) {
   const double waited = s.world.time - s.world.game.phaseSince;
   const bool wait = waited < s.parameters.waitForReceiver && !receiverReady(s);
   BallPlay play = playTowards(s, s.setPlay->p_FTarget, KickUse::Never, wait);
-  if (!s.setPlay->kicked) return play;
-  // Whoever walks sideways into the ball touches it twice.
+  // Whoever walks into the ball often touches it twice.
   if (const auto* kick = kickThatGoes(s, (play.p_FTarget - s.ball()).norm())) {
     play.use = KickUse::Clear;
     play.kick = kick->name;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 
 #include "scene.h"
@@ -96,8 +97,30 @@ TEST_F(Choice, SetPiecesGoToWhereOneOfUsIsFirst) {
   ASSERT_TRUE(free.kick);
   EXPECT_LT((free.p_FTarget - Vector2(6.5, -5.5)).norm(), 1.5);
   scene.world.teammates[6].known = false;
-  opponentAt(3, {9.0, 3.0});
+  // Wherever else a kick would end.
+  for (int i = 0; i < 7; ++i)
+    opponentAt(3 + i, scene.situation(Role::OnBall).ball() + 6.3 * unitVector(toRadians(30.0 * i)));
+  const Vector2 receiver = scene.situation(Role::OnBall).setPlay->p_FReceiver;
+  Scene::put(scene.world.teammates[7], Pose2(receiver, 0.0));
   EXPECT_FALSE(chooseSetPiece(scene.situation(Role::OnBall)).kick) << "the one next to the ball gets it";
+}
+
+TEST_F(Choice, NoSetPieceGoesToAReceiverThatCannotComeInTime) {
+  scene.world.game.phase = world::Phase::OwnKickIn;
+  ballAt({2.0, -9.9});
+  const Vector2 receiver = scene.situation(Role::OnBall).setPlay->p_FReceiver;
+  Scene::put(scene.world.teammates[6], Pose2(6.5, -5.5, 0.0));
+  Scene::put(scene.world.teammates[7], Pose2(receiver, 0.0));
+  opponentAt(3, receiver + Vector2(0.6, 0.8));
+  const auto worthOfReceiver = [&] {
+    Candidates record;
+    chooseSetPiece(scene.situation(Role::OnBall), &record);
+    return record.all()[0].value;
+  };
+  const double there = worthOfReceiver();
+  Scene::put(scene.world.teammates[7], Pose2(receiver - Vector2(5.0, 0.0), 0.0));
+  EXPECT_LT(worthOfReceiver(), there - 0.02);
+  EXPECT_TRUE(chooseSetPiece(scene.situation(Role::OnBall)).kick) << "to the other one";
 }
 
 // Kick-ins are indirect (server facts 4.5): over the goal line they are lost.

@@ -110,25 +110,22 @@ struct FormationParameters {
 
 /// Set pieces of the own team (set_play.h) and of the opponents.
 struct SetPlayParameters {
-  double passLength = 1.3;
+  double passLength = 3;
   double behindPass = 0.45;
   double receiverMargin = 0.3;
   double receiverReady = 0.6;
   double kickInAngle = toRadians(65);
   double goalKickAngle = toRadians(35);
-  double cornerBack = 2.0;
+  double cornerBack = 5.5;
+  double cornerAside = 2.5;
+  double cornerLength = 5.5;
   double kickOffAngle = toRadians(-100);
-  double kickOffLength = 3;
   double kickOffLine = 0.6;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     using namespace config;
-    visit({"passLength",
-           Unit::Metre,
-           {0.2, 10},
-           fixed,
-           "To the receiver: a little more than the ball rolls after a push by a walking foot"},
+    visit({"passLength", Unit::Metre, {0.5, 10}, fixed, "How far the ball is kicked, but at corners"},
           self.passLength);
     visit({"behindPass",
            Unit::Metre,
@@ -148,14 +145,16 @@ struct SetPlayParameters {
     visit(
         {"cornerBack", Unit::Metre, {0, 10}, fixed, "Corner: towards a point this far in front of the goal"},
         self.cornerBack);
+    visit({"cornerAside", Unit::Metre, {0, 10}, fixed, "and this far aside, where the corner is"},
+          self.cornerAside);
+    visit({"cornerLength", Unit::Metre, {0.5, 10}, fixed, "Corner: how far the ball is kicked"},
+          self.cornerLength);
     visit({"kickOffAngle",
            Unit::Radian,
            {-3.2, 3.2},
            fixed,
            "Kick-off: to the right and a little back, away from the opponents"},
           self.kickOffAngle);
-    visit({"kickOffLength", Unit::Metre, {0.5, 10}, fixed, "Kick-off: how far the ball is kicked"},
-          self.kickOffLength);
     visit({"kickOffLine",
            Unit::Metre,
            {0, 5},

@@ -1,5 +1,5 @@
-// Own kick-offs, kick-ins, corners, goal kicks and free kicks: the taker pushes the ball once to a receiver
-// that stands near by, since it may not touch it twice; at the kick-off it kicks.
+// Own kick-offs, kick-ins, corners, goal kicks and free kicks: the taker kicks the ball once to a receiver,
+// since it may not touch it twice, and who walks into it often does.
 #pragma once
 
 #include "nonet/team/parameters.h"
@@ -10,8 +10,7 @@ namespace nonet::team {
 /// The plan for one set piece, own field frame.
 struct SetPlay {
   Vector2 p_FReceiver = Vector2::Zero();  // where the receiver waits, m
-  Vector2 p_FTarget = Vector2::Zero();    // where the taker pushes the ball: before the receiver's feet, m
-  bool kicked = false;  // the ball is to go just so far; otherwise the target is a direction
+  Vector2 p_FTarget = Vector2::Zero();    // where the ball is to rest: before the receiver's feet, m
 };
 
 SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGeometry& field,

@@ -10,12 +10,14 @@ namespace nonet::team {
 
 namespace {
 
-// Out of the ball's way: beside it, on the side on which the robot is.
+// Out of the ball's way: beside it, on the side on which the robot is. Who comes after the ball is in
+// nobody's way.
 Vector2 besideTheWay(const Situation& s, const Vector2& place, const Vector2& rest) {
   const Vector2 ball = s.ball();
   const Vector2 way = rest - ball;
   const double share = (place - ball).dot(way) / std::max(way.squaredNorm(), 1e-9);
-  if (share > 1.0) return place;  // the ball does not come so far
+  if (share < 0.0 || share > 1.0) return place;  // the ball does not come there
+  if ((s.world.self.X_FR.translation - ball).dot(way) < 0.0) return place;
   const Vector2 left = Vector2(-way.y(), way.x()).normalized();
   const double room = s.parameters.ball.awaitAside;
   const double aside = (place - ball).dot(left);

@@ -115,7 +115,8 @@ std::optional<Action> kick(const Situation& s) {
   const bool straight = mayKick(s, *s.play, there);
   if (straight && there) return kickAction(s, *s.play, "in place");
   const std::optional<BallPlay> aside = playAside(s, *s.play, straight);
-  if (aside && mayKick(s, *aside, false))
+  const bool thereAside = aside && s.motion.kickInPlace() && s.motion.kick.name == aside->kick;
+  if (aside && mayKick(s, *aside, thereAside))
     return isBehind(s, *aside) ? kickAction(s, *aside, "line up aside") : goBehind(s, *aside);
   if (!straight || !isBehind(s, *s.play)) return std::nullopt;
   return kickAction(s, *s.play, "line up");
