@@ -117,7 +117,10 @@ BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
   const ChoiceParameters& p = s.parameters.choice;
   const double first =
       probabilityFirst(teammatesTime(s, p_FReceiver), opponentsTime(s, p_FReceiver), p.arrivalSpread);
-  BallChoice best{false, s.setPlay->p_FTarget, valueAt(s, p_FReceiver, p.shortPass * first), {}};
+  const Block block = blockOf(s, s.setPlay->p_FTarget);
+  const double value = (1.0 - block.probability) * valueAt(s, p_FReceiver, p.shortPass * first) +
+                       block.probability * valueAt(s, block.p_F, kStopped);
+  BallChoice best{false, s.setPlay->p_FTarget, value, {}};
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.setPlay->p_FReceiver, best.value);
   weighKicks(s, {0.0, 0, kAllDirections - 1}, record, best,

@@ -15,7 +15,7 @@ namespace {
 
 // At the own kick-off.
 constexpr int kReceiver = 6;
-constexpr int kTaker = 8;
+constexpr int kTaker = 7;
 
 // What a place must keep: distance from the more important places, nobody but the nearer back with the goalie
 // in the own penalty area (illegal defence, server facts 4.10), backs on the own side of the ball.
@@ -153,10 +153,10 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
       {-9.0, -2.0, -9.0, -2.0},
       {-4.5, 4.5, -4.5, 4.0},  // wings
       {-4.5, -4.5, -4.5, -4.0},
-      {-1.0, -3.0, -2.6, 1.0},   // receiver of the own kick-off: see below
-      {-0.6, 5.0, -2.6, 3.2},    // forwards
-      {-0.35, 0.4, -2.6, -1.0},  // takes the kick-off
-      {-0.6, -5.0, -2.6, -3.2},
+      {-1.7, -2.7, -2.6, 1.0},  // receiver of the own kick-off: see below
+      {-0.35, 0.5, -2.6, 3.2},  // takes the kick-off
+      {-0.6, 5.0, -2.6, -1.0},  // forwards
+      {-0.6, -5.5, -2.6, -3.2},
       {-6.0, 0.0, -6.0, 0.0},
       {-11.0, 0.0, -11.0, 0.0},
   }};
@@ -175,8 +175,8 @@ Pose2 kickOffPose(int unum, bool ownKickOff, const world::FieldGeometry& field,
 
 Formation kickOffFormation(const Vector2& p_FB, const world::FieldGeometry& field,
                            const SetPlayParameters& parameters) {
-  // The numbers that the roles fall to when nobody is missing; the last two play eleven a side.
-  constexpr std::array<int, kFieldRoles> kNumbers = {kTaker, kReceiver, 2, 3, 4, 5, 7, 9, 10, 11};
+  // The numbers that the roles fall to when nobody is missing, with seven a side and more.
+  constexpr std::array<int, kFieldRoles> kNumbers = {kTaker, kReceiver, 2, 3, 4, 5, 8, 9, 10, 11};
   Formation formation;
   formation.count = kFieldRoles;
   formation.positions[0] = p_FB;

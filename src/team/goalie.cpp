@@ -61,7 +61,7 @@ Vector2 clearanceTarget(const Situation& s) {
   const GoalieParameters& p = s.parameters.goalie;
   double side = s.ball().y();
   if (s.setPlay) {
-    side -= s.setPlay->p_FReceiver.y();  // past who waits for a push
+    side -= s.setPlay->p_FReceiver.y();  // past who waits for a pass
   } else if (std::abs(side) < p.clearanceSure) {
     // In the middle the ball's side is noise: what the goalie has turned to stays.
     side = std::sin(s.world.teammates[1].X_FP.rotation);

@@ -13,13 +13,15 @@ namespace {
 // Into the field rather than along its edge.
 double direction(world::Phase phase, const Vector2& p_FB, const world::FieldGeometry& field,
                  const SetPlayParameters& parameters) {
-  const double inwards = p_FB.y() > 0.0 ? -1.0 : 1.0;
+  constexpr double kMiddle = 0.3;  // m; in the middle always to the same side
+  const double inwards = p_FB.y() > -kMiddle ? -1.0 : 1.0;
   switch (phase) {
     case world::Phase::OwnKickOff:
       return parameters.kickOffAngle;
     case world::Phase::OwnKickIn: {
-      // Near the corner more across the field: the push must not roll over the goal line.
-      const double room = field.goalLine() - parameters.receiverMargin - p_FB.x();
+      // Near the corner more across the field: the ball must not roll over the goal line.
+      constexpr double kFromLine = 1.0;  // m
+      const double room = field.goalLine() - kFromLine - p_FB.x();
       const double sharpest = std::acos(std::clamp(room / parameters.passLength, -1.0, 1.0));
       return inwards * std::max(parameters.kickInAngle, sharpest);
     }
@@ -31,8 +33,11 @@ double direction(world::Phase phase, const Vector2& p_FB, const world::FieldGeom
     case world::Phase::OwnGoalKick:  // the ball lies in the middle: always to the same side
       return parameters.goalKickAngle;
     default: {
+      // Past whoever stands between the ball and the goal; near it back, or the ball is out.
       const Vector2 way = field.theirGoal() - p_FB;
-      return directionOf(way);
+      const bool near = way.norm() < 2.0 * parameters.passLength;
+      const double angle = near ? kPi - parameters.freeKickAngle : parameters.freeKickAngle;
+      return wrapAngle(directionOf(way) + inwards * angle);
     }
   }
 }

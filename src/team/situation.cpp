@@ -36,29 +36,38 @@ Vector2 awayTarget(const Situation& s) {
   return s.ball() + s.parameters.variant.clearLength * (s.ball() - s.world.field.ownGoal()).normalized();
 }
 
-bool receiverReady(const Situation& s) {
+// One of the others in the field.
+template <class Which>
+bool anyMate(const Situation& s, const Which& which) {
   const auto& mates = s.world.teammates;
   return std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
     const bool self = &mate == &mates[static_cast<std::size_t>(s.world.game.unum)];
-    return mate.known && !self && !mate.fallen &&
-           (mate.X_FP.translation - s.setPlay->p_FReceiver).norm() < s.parameters.setPlay.receiverReady;
+    return mate.known && !self && which(mate);
   });
 }
 
-// Goes as far as it is asked to, and this far; nothing without such a kick.
+bool receiverReady(const Situation& s) {
+  return anyMate(s, [&](const world::PlayerState& mate) {
+    const double away = (mate.X_FP.translation - s.setPlay->p_FReceiver).norm();
+    return !mate.fallen && away < s.parameters.setPlay.receiverReady;
+  });
+}
+
+// Goes as far as it is asked to, or nearly, and not farther; nothing without such a kick.
 const motion::KickOption* kickThatGoes(const Situation& s, double distance) {
   const auto serves = [&](const motion::KickOption& kick) {
     const motion::KickHead& head = kick.head;
     return kick.foot == model::Side::Left && head.isStraight() && head.scales && !head.isChip() &&
-           distance >= head.shortest && distance <= head.longest;
+           distance >= head.shortest;
   };
+  if (!s.parameters.ball.kick) return nullptr;
   const auto found = std::find_if(s.motion.kicks.begin(), s.motion.kicks.end(), serves);
   return found == s.motion.kicks.end() ? nullptr : &*found;
 }
 
 // A kick to where one of us is first, if that is worth more than the pass to the one who stands next to it.
 BallPlay setPiece(const Situation& s, Candidates* record) {
-  if (s.phase() != world::Phase::OwnKickOff) {
+  if (s.phase() != world::Phase::OwnKickOff && s.parameters.ball.kick) {
     const BallChoice choice = chooseSetPiece(s, record);
     if (choice.kick) {
       BallPlay play = playTowards(s, choice.p_FTarget, KickUse::Clear);
@@ -67,6 +76,8 @@ BallPlay setPiece(const Situation& s, Candidates* record) {
       return play;
     }
   }
+  const bool alone = !anyMate(s, [](const world::PlayerState&) { return true; });
+  if (alone) return playTowards(s, s.p_FTarget, KickUse::Clear);
   const double waited = s.world.time - s.world.game.phaseSince;
   const bool wait = waited < s.parameters.waitForReceiver && !receiverReady(s);
   BallPlay play = playTowards(s, s.setPlay->p_FTarget, KickUse::Never, wait);

@@ -1,11 +1,13 @@
 #include "nonet/team/formation.h"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "nonet/math/random.h"
+#include "nonet/team/role_assignment.h"
 
 namespace nonet::team {
 namespace {
@@ -275,14 +277,33 @@ TEST(KickOffPose, IsInTheOwnHalfAndOutsideTheCircleForTheOtherSide) {
 }
 
 TEST(KickOffPose, KeepsPlayersApart) {
+  for (const double length : {30.0, 21.0}) {
+    world::FieldGeometry field;
+    field.length = length;
+    field.width = length * 2.0 / 3.0;
+    const auto place = [&](int unum, bool own) { return kickOffPose(unum, own, field, {}).translation; };
+    for (const bool own : {true, false})
+      for (int a = 1; a <= world::kTeamSize; ++a)
+        for (int b = a + 1; b <= world::kTeamSize; ++b)
+          EXPECT_GT((place(a, own) - place(b, own)).norm(), 0.7) << a << " and " << b;
+  }
+}
+
+// All but the one that goes to the ball are where they are to be.
+TEST(KickOffFormation, NobodyMovesWithSevenASideAndMore) {
   const world::FieldGeometry field;
-  for (const bool own : {true, false})
-    for (int a = 1; a <= world::kTeamSize; ++a)
-      for (int b = a + 1; b <= world::kTeamSize; ++b)
-        EXPECT_GT(
-            (kickOffPose(a, own, field, {}).translation - kickOffPose(b, own, field, {}).translation).norm(),
-            0.7)
-            << a << " and " << b;
+  RoleAssigner assigner;
+  const Formation formation = kickOffFormation(Vector2::Zero(), field, {});
+  for (const int last : {7, 8, 9, 10, 11}) {
+    std::vector<Vector2> places;
+    for (int unum = 2; unum <= last; ++unum) places.push_back(kickOffPose(unum, true, field, {}).translation);
+    const auto nearer = [](const Vector2& a, const Vector2& b) { return a.norm() < b.norm(); };
+    places.erase(std::min_element(places.begin(), places.end(), nearer));
+    const std::span<const Vector2> wanted(formation.positions.data() + 1, places.size());
+    const Assignment assignment = assigner.assign(places, wanted);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      EXPECT_LT((wanted[static_cast<std::size_t>(assignment[i])] - places[i]).norm(), 1e-9) << last;
+  }
 }
 
 }  // namespace

@@ -246,7 +246,7 @@ TEST(Goalie, KeepsTheSideToWhichItClears) {
   }
 }
 
-// Whatever it sees and wherever it faces: it kicks past the one who waits for a push.
+// Whatever it sees and wherever it faces: it kicks past the one who waits for a pass.
 TEST(Goalie, KicksAGoalKickPastItsReceiver) {
   for (const double heading : {-0.3, 0.3}) {
     for (const double y : {-0.02, 0.02}) {

@@ -15,7 +15,7 @@
 namespace nonet::team {
 namespace {
 
-constexpr double kAngle = toRadians(60.0);
+constexpr double kToSide = toRadians(60.0);
 const Vector2 kTarget(9.0, 0.0);
 
 // A robot with a kick straight on, and one 60 degrees to the side with either foot; the ball at (1, 0).
@@ -29,7 +29,7 @@ struct Turned : Scene {
     straight.head.longest = 10.0;
     motion::KickOption side = straight;
     side.name = "side";
-    side.head.direction = -kAngle;
+    side.head.direction = -kToSide;
     side.head.longest = 7.0;
     kicks = {straight, straight, side, side};
     kicks[1].foot = kicks[3].foot = model::Side::Right;
@@ -56,8 +56,8 @@ struct Turned : Scene {
 
 TEST(PlayAside, WhoFacesTheWayOfASideKickUsesIt) {
   EXPECT_EQ(Turned(Turned::behind(0.25, 0.0)).asksFor(), "");
-  EXPECT_EQ(Turned(Turned::behind(0.25, kAngle)).asksFor(), "side");
-  EXPECT_EQ(Turned(Turned::behind(0.25, -kAngle)).asksFor(), "side");
+  EXPECT_EQ(Turned(Turned::behind(0.25, kToSide)).asksFor(), "side");
+  EXPECT_EQ(Turned(Turned::behind(0.25, -kToSide)).asksFor(), "side");
   EXPECT_EQ(Turned(Turned::behind(0.25, toRadians(15.0))).asksFor(), "")
       << "little to turn, three metres more";
 }
@@ -71,10 +71,22 @@ TEST(PlayAside, OnlyTheKickThatIsNamed) {
     const std::optional<Action> action = kick(situation);
     return action && std::holds_alternative<motion::KickTo>(action->motion);
   };
-  EXPECT_TRUE(kicks(kAngle, "side"));
-  EXPECT_FALSE(kicks(kAngle, "straight")) << "it must go behind the ball first";
+  EXPECT_TRUE(kicks(kToSide, "side"));
+  EXPECT_FALSE(kicks(kToSide, "straight")) << "it must go behind the ball first";
   EXPECT_TRUE(kicks(0.0, "straight"));
   EXPECT_FALSE(kicks(0.0, "side"));
+}
+
+TEST(PlayAside, OneInItsPlaceNeedsNoMoreRoomThanAStraightOne) {
+  Turned scene(Turned::behind(0.17, kToSide));
+  Scene::put(scene.world.opponents[3], Pose2(1.0, 0.0, 0.0) * Pose2(0.6, 0.0, 0.0));
+  EXPECT_FALSE(scene.asksFor()) << "too near to begin";
+  motion::KickTo last;
+  last.kick.assign("side");
+  scene.motion.request = last;
+  scene.motion.kick.name = "side";
+  scene.motion.kick.inPlace = true;
+  EXPECT_EQ(scene.asksFor(), "side");
 }
 
 TEST(PlayAside, OneThatIsLinedUpForIsKept) {

@@ -20,6 +20,7 @@ void expectPlayable(world::Phase phase, const Vector2& ball) {
   EXPECT_LT((rest - ball).norm(), 6.0);
   // It ends in the field, and before the receiver's feet rather than at its back.
   EXPECT_LT(std::abs(rest.y()), 0.5 * field.width);
+  EXPECT_LT(std::abs(rest.x()), 14.5);
   EXPECT_LT((rest - receiver).norm(), 0.6);
   EXPECT_LE(receiver.x(), rest.x() + 1e-9);
 }
@@ -29,11 +30,13 @@ TEST(SetPlay, TheReceiverStandsWhereTheBallGoes) {
     for (double x = -14.0; x <= 14.0; x += 1.0) expectPlayable(world::Phase::OwnKickIn, {x, side * 9.958});
     expectPlayable(world::Phase::OwnCorner, {14.958, side * 5.483});
     expectPlayable(world::Phase::OwnGoalKick, {-14.0, 0.0});
-    for (double x = -13.0; x <= 12.0; x += 1.0) expectPlayable(world::Phase::OwnFreeKick, {x, side * 6.0});
+    for (double x = -13.0; x <= 13.0; x += 1.0)
+      for (const double y : {0.0, 1.0, 3.0, 6.0}) expectPlayable(world::Phase::OwnFreeKick, {x, side * y});
+    expectPlayable(world::Phase::OwnFreeKick, {13.2, side * 3.0});
   }
 }
 
-// The push of a kick-in beside a corner rolls along the goal line rather than over it.
+// The pass of a kick-in beside a corner rolls along the goal line rather than over it.
 TEST(SetPlay, AKickInStaysInTheFieldBesideTheCornerToo) {
   for (double x = 12.0; x <= 14.95; x += 0.05) {
     const Vector2 ball(x, 9.958);
@@ -58,8 +61,22 @@ TEST(SetPlay, TheKickOffPassStaysInTheOwnHalfAndComesToRestBeforeTheReceiver) {
   EXPECT_GT(ahead.x(), 0.3);
   EXPECT_LT(ahead.x(), 0.6);
   EXPECT_NEAR(ahead.y(), 0.0, 1e-9);
-  // The opponents set off 2 m from the ball when it is kicked, which takes it some 2 s.
-  EXPECT_GT(play.p_FTarget.norm(), 2.0);
+  // Nor can opponents wait for it there: they are kept in their half.
+  EXPECT_LT(play.p_FReceiver.x(), -1.0);
+  EXPECT_LT(play.p_FTarget.x(), -1.0);
+}
+
+// Opponents that keep their distance stand in the way to the goal.
+TEST(SetPlay, FreeKicksGoPastWhoStandsBeforeTheGoal) {
+  for (const double y : {-6.0, -3.0, 0.0, 3.0, 6.0}) {
+    for (double x = -13.0; x <= 13.0; x += 1.0) {
+      const Vector2 ball(x, y);
+      const Vector2 blocker = ball + 2.3 * (Vector2(15.0, 0.0) - ball).normalized();
+      const SetPlay play = setPlayFor(world::Phase::OwnFreeKick, ball, {}, {});
+      EXPECT_GT((play.p_FTarget - blocker).norm(), 1.0) << ball.transpose();
+      EXPECT_GT((play.p_FReceiver - blocker).norm(), 1.0) << ball.transpose();
+    }
+  }
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/math/direction.h"
 #include "nonet/math/random.h"
+#include "nonet/team/formation.h"
 #include "nonet/team/situation_tracker.h"
 
 #include "scene.h"
@@ -117,8 +119,9 @@ TEST(Situation, TheKickOffIsKickedIfAKickGoesAsFarAsItIsAskedTo) {
   scene.world.game.phase = world::Phase::OwnKickOff;
   scene.world.game.phaseSince = scene.world.time - 1.0;
   scene.putBall({0.0, 0.0});
-  scene.stand(Pose2(-0.1, 0.3, scene.parameters.setPlay.kickOffAngle));
-  Scene::put(scene.world.teammates[6], Pose2(-1.0, -3.0, 0.0));
+  const double angle = scene.parameters.setPlay.kickOffAngle;
+  scene.stand(Pose2(-0.25 * unitVector(angle), angle));
+  Scene::put(scene.world.teammates[6], kickOffPose(6, true, scene.world.field, scene.parameters.setPlay));
   Scene::put(scene.world.teammates[7], Pose2(-0.6, 5.0, 0.0));
   motion::KickOption pass = scene.motion.kicks.front();
   pass.name = "as far as asked";
@@ -142,6 +145,30 @@ TEST(Situation, TheKickOffIsKickedIfAKickGoesAsFarAsItIsAskedTo) {
 
   Scene::put(scene.world.teammates[6], Pose2(-6.0, -3.0, 0.0));
   EXPECT_TRUE(scene.situation(Role::OnBall).play->wait) << "for the receiver";
+  scene.world.teammates[6].known = scene.world.teammates[7].known = false;
+  Scene::put(scene.world.teammates[1], Pose2(-14.3, 0.0, 0.0));
+  Scene::put(scene.world.opponents[1], Pose2(14.3, 0.0, 0.0));
+  const Situation withGoalie = scene.situation(Role::OnBall);
+  EXPECT_FALSE(withGoalie.play->wait) << "for nobody";
+  EXPECT_EQ(withGoalie.play->p_FTarget, withGoalie.p_FTarget);
+}
+
+// Whoever may not kick walks through the ball, rather than stand before it until the server drops it.
+TEST(Situation, SetPiecesArePushedByWhoDoesNotKick) {
+  for (const world::Phase phase :
+       {world::Phase::OwnKickOff, world::Phase::OwnKickIn, world::Phase::OwnFreeKick}) {
+    Scene scene;
+    scene.world.game.phase = phase;
+    scene.world.game.phaseSince = scene.world.time - 9.0;
+    scene.putBall({0.0, 0.0});
+    Scene::put(scene.world.teammates[6], Pose2(-4.0, -3.0, 0.0));
+    Scene::put(scene.world.teammates[7], Pose2(-4.0, 5.0, 0.0));
+    scene.parameters.ball.kick = false;
+    const Situation seen = scene.situation(Role::OnBall);
+    const Vector2 along = seen.setPlay->p_FTarget.normalized();
+    scene.stand(Pose2(-0.2 * along, directionOf(along)));
+    EXPECT_EQ(scene.decideAs(Role::OnBall).reason.behavior, "dribble") << static_cast<int>(phase);
+  }
 }
 
 // Roles are given by the places that are taken: else the one who stands ready leaves and another must come.

@@ -116,10 +116,11 @@ struct SetPlayParameters {
   double receiverReady = 0.6;
   double kickInAngle = toRadians(65);
   double goalKickAngle = toRadians(35);
+  double freeKickAngle = toRadians(65);
   double cornerBack = 5.5;
   double cornerAside = 2.5;
-  double cornerLength = 5.5;
-  double kickOffAngle = toRadians(-100);
+  double cornerLength = 5;
+  double kickOffAngle = toRadians(-115);
   double kickOffLine = 0.6;
 
   template <class Self, class Visitor>
@@ -142,6 +143,12 @@ struct SetPlayParameters {
           self.kickInAngle);
     visit({"goalKickAngle", Unit::Radian, {0, 3.2}, fixed, "Goal kick: from straight ahead to the middle"},
           self.goalKickAngle);
+    visit({"freeKickAngle",
+           Unit::Radian,
+           {0, 3.2},
+           fixed,
+           "Free kick: from straight to the goal to the middle; near the goal from straight away from it"},
+          self.freeKickAngle);
     visit(
         {"cornerBack", Unit::Metre, {0, 10}, fixed, "Corner: towards a point this far in front of the goal"},
         self.cornerBack);
@@ -153,7 +160,7 @@ struct SetPlayParameters {
            Unit::Radian,
            {-3.2, 3.2},
            fixed,
-           "Kick-off: to the right and a little back, away from the opponents"},
+           "Kick-off: to the right and back, away from the opponents"},
           self.kickOffAngle);
     visit({"kickOffLine",
            Unit::Metre,

@@ -61,11 +61,20 @@ std::optional<Action> runThrough(const Situation& s) {
   return Action(motion::WalkTo{through, false}, "through the ball");
 }
 
+// A set piece: whoever walks into the ball often touches it twice. Before the server drops the ball,
+// anything.
+bool isToBeKicked(const Situation& s) {
+  constexpr double kKickBy = 10.0;  // s
+  const bool canKick = s.parameters.ball.kick && !s.motion.kicks.empty();
+  return s.setPlay && canKick && s.play->use == KickUse::Clear &&
+         s.world.time - s.world.game.phaseSince < kKickBy;
+}
+
 }  // namespace
 
 std::optional<Action> dribble(const Situation& s) {
   if (!s.play) return std::nullopt;
-  if (s.setPlay && s.play->use == KickUse::Clear) return std::nullopt;  // kicked, or it is a second touch
+  if (isToBeKicked(s)) return std::nullopt;
   const bool keep = s.play->keep.has_value() || s.parameters.dribble.steer;
   std::optional<Action> action = keep ? steer(s) : runThrough(s);
   if (action) action->reason.candidates = s.play->candidates;

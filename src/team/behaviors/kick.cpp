@@ -116,8 +116,10 @@ std::optional<Action> kick(const Situation& s) {
   if (straight && there) return kickAction(s, *s.play, "in place");
   const std::optional<BallPlay> aside = playAside(s, *s.play, straight);
   const bool thereAside = aside && s.motion.kickInPlace() && s.motion.kick.name == aside->kick;
-  if (aside && mayKick(s, *aside, thereAside))
+  if (aside && mayKick(s, *aside, thereAside)) {
+    if (thereAside) return kickAction(s, *aside, "in place");
     return isBehind(s, *aside) ? kickAction(s, *aside, "line up aside") : goBehind(s, *aside);
+  }
   if (!straight || !isBehind(s, *s.play)) return std::nullopt;
   return kickAction(s, *s.play, "line up");
 }
