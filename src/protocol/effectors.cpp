@@ -1,5 +1,6 @@
 #include "nonet/protocol/effectors.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -32,6 +33,12 @@ int leadingInteger(std::string_view text) {
   }
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
+}
+
+// Printable ASCII characters without blank and brackets.
+bool isWord(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return c > ' ' && c <= '~' && c != '(' && c != ')'; });
 }
 
 // Each reads the values of a list whose name has been read and stores them if they are complete. Values that
@@ -95,7 +102,7 @@ bool readSay(CommandReader& reader, Effectors& effectors) {
   if (!reader.atom(message) || !isSayable(message)) {
     return false;
   }
-  effectors.say = message;
+  effectors.addSay(message);
   return true;
 }
 
@@ -134,15 +141,11 @@ bool readCommand(CommandReader& reader, Effectors& effectors, int& skipped) {
 }  // namespace
 
 bool isSayable(std::string_view message) {
-  if (message.empty() || message.size() > kMaxSayLength) {
-    return false;
-  }
-  for (const char c : message) {
-    if (c <= ' ' || c > '~' || c == '(' || c == ')') {
-      return false;
-    }
-  }
-  return true;
+  return !message.empty() && message.size() <= kMaxSayLength && isWord(message);
+}
+
+bool isTeamName(std::string_view name) {
+  return isWord(name) && name.find_first_of("\"'") == std::string_view::npos;
 }
 
 int parseEffectors(std::string_view text, Effectors& effectors) {
@@ -203,9 +206,10 @@ void writeEffectors(const Effectors& effectors, std::string& text) {
       text += ')';
     }
   }
-  if (effectors.say) {
+  for (const auto& said : {effectors.firstSay, effectors.say}) {
+    if (!said) continue;
     text += "(say ";
-    text += effectors.say->view();
+    text += said->view();
     text += ')';
   }
   text += effectors.pass ? "(pass)" : "";

@@ -18,7 +18,21 @@ namespace {
 constexpr std::uint64_t kPlayerStream = 0x100;
 constexpr std::uint64_t kDeafnessStream = 0x200;
 
+constexpr std::string_view kUntypedRobot = "rsg/agent/nao/nao.rsg";
+constexpr std::string_view kTypedRobot = "rsg/agent/nao/nao_hetero.rsg";
+
+bool isKnown(const protocol::SceneEffector& scene) {
+  return scene.file.empty() || scene.file == kUntypedRobot || scene.file == kTypedRobot;
+}
+
 }  // namespace
+
+std::optional<int> typeOf(const protocol::SceneEffector& scene) {
+  if (!isKnown(scene)) return std::nullopt;
+  if (scene.file == kUntypedRobot) return 0;
+  if (scene.robotType < 0 || scene.robotType >= model::kRobotTypeCount) return std::nullopt;
+  return scene.robotType;
+}
 
 // Server facts 1.2, phase 1: immediate effectors act, deferred ones are kept.
 void Simulation::Implementation::receive(Agent& agent, const protocol::Effectors& message) {
@@ -38,6 +52,7 @@ void Simulation::Implementation::receive(Agent& agent, const protocol::Effectors
     }
     world.setJointSpeed(player->robot, joint, speed);
   }
+  if (message.firstSay) broadcast(*player, message.firstSay->view());
   if (message.say) broadcast(*player, message.say->view());
   if (message.init) agent.init = message.init;
   if (message.beam) agent.beam = message.beam;
@@ -99,16 +114,13 @@ void Simulation::Implementation::executeScene(Agent& agent) {
 }
 
 void Simulation::Implementation::buildRobot(Agent& agent, const protocol::SceneEffector& scene) {
-  const std::string_view file = scene.file;
-  const bool known =
-      file.empty() || file == "rsg/agent/nao/nao.rsg" || file == "rsg/agent/nao/nao_hetero.rsg";
-  if (!known) {
-    spdlog::warn("agent {}: unknown scene file '{}'", agent.handle, file);
+  if (!isKnown(scene)) {
+    spdlog::warn("agent {}: unknown scene file '{}'", agent.handle, std::string_view(scene.file));
     return;
   }
-  const int type = file == "rsg/agent/nao/nao.rsg" ? 0 : scene.robotType;
-  if (type < 0 || type >= model::kRobotTypeCount) {
-    spdlog::warn("agent {}: there is no robot type {}, types are 0 to {}", agent.handle, type,
+  const std::optional<int> type = typeOf(scene);
+  if (!type) {
+    spdlog::warn("agent {}: there is no robot type {}, types are 0 to {}", agent.handle, scene.robotType,
                  model::kRobotTypeCount - 1);
     return;
   }
@@ -120,8 +132,8 @@ void Simulation::Implementation::buildRobot(Agent& agent, const protocol::SceneE
   }
   Player player;
   player.agent = agent.handle;
-  player.robot = world.addRobot(type);
-  player.robotType = type;
+  player.robot = world.addRobot(*type);
+  player.robotType = *type;
   player.touchGroup = referee.newTouchGroup();
   players.push_back(player);
   // Players stay in the order in which their agents connected.
@@ -140,12 +152,18 @@ void Simulation::Implementation::seedFor(Agent& agent, TeamSide side, int unum) 
 // Server facts 1.3. Every init moves the robot to its side's next start position, also a refused one.
 void Simulation::Implementation::initialise(Agent& agent, const protocol::InitEffector& init) {
   const bool entering = playerOf(agent) == nullptr;
-  const int type = entering ? agent.scene->robotType : playerOf(agent)->robotType;
+  // Nobody is registered whose robot cannot be built. This says why it cannot.
+  if (entering && !typeOf(*agent.scene)) return buildRobot(agent, *agent.scene);
+  const int type = entering ? *typeOf(*agent.scene) : playerOf(agent)->robotType;
   TeamSide side = TeamSide::None;
   int unum = init.unum;
   const auto refusal = referee.game().registerPlayer(init.team, type, side, unum, settings);
   const bool accepted = refusal == GameState::Refusal::None;
-  if (accepted) {
+  if (refusal == GameState::Refusal::TeamName) {
+    // The name itself could break the lines of the log.
+    spdlog::warn("agent {}: init as number {} refused: {}", agent.handle, init.unum,
+                 "a team's name has only printable characters, no blank, bracket or quote");
+  } else if (accepted) {
     seedFor(agent, side, unum);
     spdlog::info("agent {}: number {} of team {} ({}), robot type {}", agent.handle, unum,
                  std::string_view(init.team), sideName(side), type);
@@ -165,6 +183,7 @@ void Simulation::Implementation::initialise(Agent& agent, const protocol::InitEf
   if (accepted) {
     // The server forgets to give the old number back when somebody repeats init; that leak helps nobody.
     referee.game().releasePlayer(player->side, player->unum, player->robotType);
+    referee.changeNumber(*player);
     player->side = side;
     player->unum = unum;
     player->team = init.team;
@@ -213,6 +232,7 @@ void Simulation::Implementation::removeGoneAgents() {
     const Player* player = playerOf(*agent);
     if (player == nullptr) continue;
     referee.game().releasePlayer(player->side, player->unum, player->robotType);
+    referee.forget(*player);
     world.removeRobot(player->robot);
     players.erase(players.begin() + (player - players.data()));
   }

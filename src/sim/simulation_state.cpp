@@ -1,4 +1,5 @@
 // Saving, restoring and hashing a whole simulation.
+#include <algorithm>
 #include <bit>
 
 #include "nonet/protocol/percept_text.h"
@@ -11,7 +12,7 @@ namespace nonet::sim {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x4e6f6e6574536d32ULL;  // "NonetSm2"
+constexpr std::uint64_t kMagic = 0x4e6f6e6574536d33ULL;  // "NonetSm3"
 
 // Percepts own memory; their text holds every bit of them.
 void putPercept(std::vector<std::uint8_t>& out, const protocol::Percept& percept) {
@@ -85,7 +86,8 @@ void Simulation::restore(std::span<const std::uint8_t> state) {
   self.random.setState(random);
   take(state, self.nextHandle);
   take(state, self.serverTime);
-  take(state, self.sceneVersion);
+  std::uint64_t savedVersion = 0;
+  take(state, savedVersion);
   std::size_t count = 0;
   take(state, count);
   self.agents.clear();
@@ -101,7 +103,8 @@ void Simulation::restore(std::span<const std::uint8_t> state) {
     takePercept(state, agent->sent);
     self.agents.push_back(std::move(agent));
   }
-  ++self.sceneVersion;  // monitors that watch see another scene
+  // Monitors that watch see another scene: the version must be none that they know.
+  self.sceneVersion = std::max(self.sceneVersion, savedVersion) + 1;
   self.updateMatch();
 }
 

@@ -128,6 +128,26 @@ TEST(Effectors, Say) {
   EXPECT_FALSE(isSayable(""));
 }
 
+// Server facts 1.7: others hear the first, who speaks hears the last.
+TEST(Effectors, OfSeveralSaysTheFirstAndTheLastAreKept) {
+  EXPECT_FALSE(parsed("(say a)").firstSay);
+  EXPECT_FALSE(parsed("(say 123456789012345678901)(say b)", 1).firstSay);
+  const Effectors several = parsed("(say a)(say b)(say c)");
+  ASSERT_TRUE(several.firstSay && several.say);
+  EXPECT_EQ(*several.firstSay, "a");
+  EXPECT_EQ(*several.say, "c");
+  std::string text;
+  writeEffectors(several, text);
+  EXPECT_EQ(text, "(say a)(say c)");
+}
+
+TEST(Effectors, TeamNames) {
+  for (const char* good : {"", "Nonet", "A-B_c!", "9"}) EXPECT_TRUE(isTeamName(good)) << good;
+  for (const char* bad : {"A B", "A(", ")A", "\"A\"", "A'", "A\n", "\x7f", "\xC3\xA4"}) {
+    EXPECT_FALSE(isTeamName(bad)) << bad;
+  }
+}
+
 TEST(Names, JointsAndModesMapBack) {
   for (std::size_t i = 0; i < model::kJointCount; ++i) {
     const JointId joint = model::jointAt(i);

@@ -82,7 +82,8 @@ inline std::string difference(const Effectors& a, const Effectors& b) {
                   !sameBits(a.beam->rotation, b.beam->rotation)))) {
     return "beam";
   }
-  if (a.say != b.say || a.pass != b.pass || a.syn != b.syn) return "say, pass or syn";
+  if (a.say != b.say || a.firstSay != b.firstSay || a.pass != b.pass || a.syn != b.syn)
+    return "say, pass or syn";
   return {};
 }
 
@@ -96,7 +97,11 @@ inline std::string checkEffectors(std::string_view text) {
   if (first.init && !plainWord(first.init->team)) first.init.reset();
   if (first.scene && !first.scene->file.empty() && !plainWord(first.scene->file)) first.scene.reset();
   if (first.scene && first.scene->file == "rsg/agent/nao/nao.rsg") first.scene->robotType = 0;
-  if (first.say && !plainWord(*first.say)) first.say.reset();
+  if (first.firstSay && !plainWord(*first.firstSay)) first.firstSay.reset();
+  if (first.say && !plainWord(*first.say)) {
+    first.say.reset();
+    first.firstSay.reset();
+  }
   writeEffectors(first, written);
   if (parseEffectors(written, second) != 0) return "our own text was not understood: " + written;
   roundAsWritten(first);

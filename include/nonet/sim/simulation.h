@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,10 @@ struct MatchState {
   float passModeScoreWaitLeft = 0.0F;  // s for which the left team may not score after its pass mode
   float passModeScoreWaitRight = 0.0F;
 };
+
+/// The robot type that a scene message asks for: nao.rsg is type 0, whatever follows. Nothing if there is no
+/// such description or type.
+std::optional<int> typeOf(const protocol::SceneEffector& scene);
 
 class Simulation {
  public:

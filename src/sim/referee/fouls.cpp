@@ -37,7 +37,7 @@ void Fouls::reset() {
     resetPlayer(c_.records.of(TeamSide::Left, unum));
     resetPlayer(c_.records.of(TeamSide::Right, unum));
   }
-  thawJoints(true);
+  for (const Player& player : c_.players) thaw(player);
 }
 
 void Fouls::update() {
@@ -54,7 +54,7 @@ void Fouls::update() {
   c_.bothSidesInRandomOrder([this](TeamSide side) { judgeTouching(side); });
   c_.bothSidesInRandomOrder([this](TeamSide side) { punish(side); });
   renewTouchGroups();
-  thawJoints(false);
+  thawJoints();
 }
 
 void Fouls::sampleVelocities() {

@@ -4,6 +4,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "nonet/protocol/effectors.h"
+
 namespace nonet::sim {
 
 GameState::GameState(const Settings& settings) {
@@ -95,6 +97,9 @@ bool GameState::typeAllowed(const Team& team, int type, const Settings& settings
 
 GameState::Refusal GameState::registerPlayer(std::string_view name, int robotType, TeamSide& side, int& unum,
                                              const Settings& settings) {
+  // A name that is refused must not take a side. The type is an index below.
+  if (!protocol::isTeamName(name)) return Refusal::TeamName;
+  if (robotType < 0 || robotType >= kTypes) return Refusal::TypeRule;
   const TeamSide wanted = sideOfTeam(name);
   if (wanted == TeamSide::None) return Refusal::ThirdTeam;
   Team& team = this->team(wanted);

@@ -36,6 +36,11 @@ void Referee::update(int clientCount) {
   }
 }
 
+void Referee::changeNumber(const Player& player) {
+  fouls_.thaw(player);
+  fouls_.forgetContacts(player);
+}
+
 Toucher Referee::present(const Toucher& toucher) const {
   for (const Player& player : c_.players) {
     if (player.agent == toucher.agent) return {player.agent, player.side, player.unum};

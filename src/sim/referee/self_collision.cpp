@@ -218,7 +218,14 @@ void Fouls::writeSelfCollision(const std::string& line) {
   selfCollisionFile_ << line << std::endl;
 }
 
-void Fouls::thawJoints(bool all) {
+void Fouls::thaw(const Player& player) {
+  c_.records.of(player).jointFrozenAt.fill(kNeverFrozen);
+  for (std::size_t i = 0; i < model::kJointCount; ++i) {
+    c_.world.freezeJoint(player.robot, model::jointAt(i), false);
+  }
+}
+
+void Fouls::thawJoints() {
   const Settings& s = c_.settings;
   if (!s.foulOnSelfCollisions || s.selfCollisionBeamPenalty) return;
   const float frozen = static_cast<float>(s.selfCollisionJointFrozenTime);
@@ -228,8 +235,8 @@ void Fouls::thawJoints(bool all) {
     for (std::size_t i = 0; i < frozenAt.size(); ++i) {
       if (frozenAt[i] < 0.0F) continue;
       const float passed = c_.game.time() - frozenAt[i];
-      if (all || passed >= frozen) c_.world.freezeJoint(player.robot, model::jointAt(i), false);
-      if (all || passed >= rest) frozenAt[i] = kNeverFrozen;
+      if (passed >= frozen) c_.world.freezeJoint(player.robot, model::jointAt(i), false);
+      if (passed >= rest) frozenAt[i] = kNeverFrozen;
     }
   }
 }

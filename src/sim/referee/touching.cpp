@@ -63,6 +63,13 @@ void Fouls::forgetContacts() {
   opponentContacts.clear();
 }
 
+void Fouls::forgetContacts(const Player& player) {
+  std::erase_if(opponentContacts, [&player](const OpponentContact& contact) {
+    return (player.side == TeamSide::Left && contact.leftUnum == player.unum) ||
+           (player.side == TeamSide::Right && contact.rightUnum == player.unum);
+  });
+}
+
 void Fouls::renewTouchGroups() {
   for (Player& player : c_.players) {
     player.touchGroupSizeBefore = touchGroupSize(player.touchGroup);

@@ -1,10 +1,12 @@
 #include "sim/server/connection.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <asio/buffer.hpp>
 #include <asio/error.hpp>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spdlog/spdlog.h>
 
 namespace nonet::sim {
@@ -50,12 +52,20 @@ void Connection::start(std::function<void(std::string_view)> onMessage, std::fun
 
 void Connection::resume() {
   if (dead_ || delivering_) return;
+  // The end must not hide behind megabytes that wait to be read.
+  if (share_ == 0 && endedByPeer()) return die("closed by the other side");
+  share_ = kReadShare;
   deliver();
   read();
 }
 
+bool Connection::endedByPeer() {
+  pollfd state{socket_.native_handle(), POLLRDHUP, 0};  // POLLERR and POLLHUP are always told
+  return ::poll(&state, 1, 0) > 0;
+}
+
 void Connection::read() {
-  if (dead_ || reading_ || paused_()) return;
+  if (dead_ || reading_ || share_ == 0 || paused_()) return;
   reading_ = true;
   constexpr std::size_t kChunk = 4096;
   const std::span<char> room = frames_.prepare(kChunk);
@@ -67,6 +77,7 @@ void Connection::read() {
                               const bool closed = error == asio::error::eof;
                               return self->die(closed ? "closed by the other side" : error.message());
                             }
+                            self->share_ -= std::min(self->share_, size);
                             self->frames_.received(size);
                             self->deliver();
                             self->read();

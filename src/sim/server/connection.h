@@ -16,6 +16,9 @@ namespace nonet::sim {
 
 /// Of one connection; more are merged (agents) or wait (monitors).
 inline constexpr std::size_t kMaxQueuedMessages = 64;
+/// Bytes that are read of one connection until the next resume(): a hundred times what an agent sends in a
+/// cycle. So nobody who sends without pause holds up the others.
+inline constexpr std::size_t kReadShare = 65536;
 
 /// With address reuse. Throws std::runtime_error that names the port, and its purpose ("agents"), if it is
 /// taken.
@@ -27,9 +30,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   explicit Connection(asio::ip::tcp::socket socket);
 
   /// Starts reading; `onMessage` gets every complete message, `paused` says when to stop reading for a while
-  /// (then call resume()).
+  /// (then call resume()). resume() also gives it the next share.
   void start(std::function<void(std::string_view)> onMessage, std::function<bool()> paused);
-  /// Goes on reading if it was paused and no longer is.
+  /// Goes on reading if it was paused and no longer is, or has read its share.
   void resume();
   /// Sends a message, or drops it whole while an earlier one has not gone out completely (server facts 1.1).
   /// False if it was dropped or the connection is dead.
@@ -47,6 +50,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   void read();
+  bool endedByPeer();
   void deliver();
   void flush();
   void waitToFlush();
@@ -57,6 +61,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   protocol::FrameReader frames_;
   std::function<void(std::string_view)> onMessage_;
   std::function<bool()> paused_;
+  std::size_t share_ = kReadShare;  // what may still be read
   bool reading_ = false;
   bool delivering_ = false;
   bool waitingToFlush_ = false;

@@ -4,22 +4,28 @@
 #include <numeric>
 #include <tuple>
 
+#include <spdlog/spdlog.h>
+
 namespace nonet::sim {
 
 const protocol::Percept* Lobby::receive(const protocol::Effectors& message) {
   if (ready()) return nullptr;
   if (!scene_) {
     if (!message.scene) return nullptr;
+    if (!typeOf(*message.scene)) {
+      spdlog::warn("lobby: there is no robot type {} in scene file '{}'", message.scene->robotType,
+                   std::string_view(message.scene->file));
+      return nullptr;  // it may try again
+    }
     scene_ = message.scene;
     world_ = std::make_unique<Simulation>(settings_, seed_);
     agent_ = world_->connect();
     protocol::Effectors scene;
     scene.scene = scene_;
     world_->actAsReceived(agent_, scene);
-    world_->step();                                        // builds the robot
-    world_->step();                                        // makes its first message
-    world_->step();                                        // sends it
-    if (world_->sense(agent_) == nullptr) scene_.reset();  // no such robot: it may try again
+    world_->step();  // builds the robot
+    world_->step();  // makes its first message
+    world_->step();  // sends it
     return world_->sense(agent_);
   }
   if (message.init) {

@@ -68,10 +68,10 @@ void Server::Implementation::cycle() {
 
 // Server facts 1.2: a cycle begins no earlier than 20 ms after the one before, whatever that one lost.
 void Server::Implementation::pace() {
-  io.poll();
-  // Lock-step without a robot has nobody to wait for; real time keeps it from running away.
-  const bool idle =
-      std::none_of(agents.begin(), agents.end(), [](const auto& link) { return link->sensesSent > 0; });
+  readOn();
+  handleWhatIsReady();
+  // Lock-step with nobody to wait for: real time keeps it from running away.
+  const bool idle = nobodyIsWaitedFor();
   if (serverSettings.realTime || (serverSettings.lockStep && idle)) {
     // A timer, since waits of run_one_until() are rounded up to milliseconds.
     bool over = false;
@@ -80,10 +80,27 @@ void Server::Implementation::pace() {
     while (!stopping && !over) io.run_one();
     cycleTimer.cancel();
     while (!over) io.run_one();
-    io.poll();
+    handleWhatIsReady();
   }
   const SteadyClock::time_point before = std::exchange(cycleBegan, SteadyClock::now());
   if (serverSettings.realTime && !idle) statistics.delays.add(Seconds(cycleBegan - before - kCycle).count());
+}
+
+// No robot is there yet, or all have been given up.
+bool Server::Implementation::nobodyIsWaitedFor() const {
+  return std::none_of(agents.begin(), agents.end(),
+                      [](const auto& link) { return link->sensesSent > 0 && !link->givenUp; });
+}
+
+// Not io.poll(): where somebody connects or sends without pause there is always more.
+void Server::Implementation::handleWhatIsReady() {
+  const auto end = SteadyClock::now() + kCycle / 4;
+  while (!stopping && io.poll_one() > 0 && SteadyClock::now() < end) {
+  }
+}
+
+void Server::Implementation::readOn() {
+  for (const auto& link : agents) link->connection->resume();
 }
 
 void Server::Implementation::waitForAnswers() {
@@ -94,8 +111,13 @@ void Server::Implementation::waitForAnswers() {
       return !link->owesAnswer || link->givenUp || link->connection->dead() || link->hasAnswered();
     });
   };
+  // An answer may lie behind more than one share.
+  auto nextShare = SteadyClock::now() + kCycle;
   while (!stopping && !allAnswered()) {
-    if (io.run_one_until(deadline) == 0) giveUpWaiting();
+    if (io.run_one_until(std::min(deadline, nextShare)) > 0) continue;
+    if (SteadyClock::now() >= deadline) giveUpWaiting();
+    readOn();
+    nextShare = SteadyClock::now() + kCycle;
   }
 }
 
@@ -111,7 +133,11 @@ void Server::Implementation::giveUpWaiting() {
 
 void Server::Implementation::deliverCommands() {
   for (const auto& link : agents) {
-    if (link->agent == kNoAgent || mustWaitToBeBorn(*link)) continue;
+    if (link->agent == kNoAgent) continue;
+    if (mustWaitToBeBorn(*link)) {
+      link->held = true;
+      continue;
+    }
     // In lock-step a cycle takes exactly what belongs to the answer, however fast the rest arrives.
     bool more = true;
     while (more && !link->inbox.empty()) {
@@ -122,6 +148,8 @@ void Server::Implementation::deliverCommands() {
         more = !serverSettings.lockStep || !link->owesAnswer;
         link->owesAnswer = false;
       }
+      // What came while it was held is meant for the robot, which is there in the next cycle.
+      if (received.effectors.scene && std::exchange(link->held, false)) more = false;
       simulation.actAsReceived(link->agent, received.effectors);
       link->inbox.pop_front();
     }

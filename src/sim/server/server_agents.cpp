@@ -8,12 +8,13 @@ namespace nonet::sim {
 
 namespace {
 
-// Of equal effectors the last one counts, as within one message.
+// Of equal effectors the last one counts (of what is said also the first), as within one message.
 void mergeInto(protocol::Effectors& earlier, const protocol::Effectors& later) {
   if (later.scene) earlier.scene = later.scene;
   if (later.init) earlier.init = later.init;
   if (later.beam) earlier.beam = later.beam;
-  if (later.say) earlier.say = later.say;
+  if (later.firstSay) earlier.addSay(*later.firstSay);
+  if (later.say) earlier.addSay(*later.say);
   for (std::size_t i = 0; i < model::kJointCount; ++i) {
     if (later.hasSpeed(model::jointAt(i))) earlier.setSpeed(model::jointAt(i), later.speeds[i]);
   }
@@ -100,7 +101,8 @@ void Server::Implementation::lobbyMessage(AgentLink& link, const protocol::Effec
 
 void Server::Implementation::waitInLobby() {
   io.run_one_for(std::chrono::milliseconds(100));
-  io.poll();
+  handleWhatIsReady();
+  readOn();
   reap();
   executeTrainerCommands();
   if (readyPlayers() >= serverSettings.players) startMatch();
@@ -129,6 +131,8 @@ void Server::Implementation::startMatch() {
       protocol::Effectors scene;
       scene.scene = link->lobby->scene();
       link->inbox.push_back({scene, 0});
+      link->held = true;
+      link->sensesSent = 0;  // those of the lobby: the robot is yet to be born
     }
     link->lobby.reset();
   }

@@ -43,6 +43,7 @@ struct AgentLink {
   SteadyClock::time_point sensed;  // when the last was sent
   bool owesAnswer = false;         // lock-step: to the last sense message
   bool givenUp = false;            // lock-step: not waited for
+  bool held = false;               // its scene waits until others are born
   long dropped = 0;                // messages in a row
   SteadyClock::time_point heard = SteadyClock::now();
   bool silent = false;  // not heard for kSilence, and said so
@@ -68,6 +69,9 @@ struct Server::Implementation {
 
   void cycle();
   void pace();
+  bool nobodyIsWaitedFor() const;
+  void handleWhatIsReady();
+  void readOn();
   void waitForAnswers();
   void giveUpWaiting();
   void deliverCommands();

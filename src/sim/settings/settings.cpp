@@ -19,6 +19,17 @@ struct SettingsFile {
   }
 };
 
+// The ball's centre is in a goal while the whole ball is: that space is as much smaller than the goal as the
+// ball is wide, and physics cannot have one of no size.
+void checkGoals(const Settings& s) {
+  const double diameter = 2.0 * s.ballRadius;
+  if (s.goalDepth > diameter && s.goalWidth > diameter) return;
+  throw config::ParameterError(fmt::format(
+      "the ball does not fit into the goals: GoalDepth = {} m and GoalWidth = {} m must be more than "
+      "twice BallRadius = {} m; make the goals larger or the ball smaller",
+      s.goalDepth, s.goalWidth, s.ballRadius));
+}
+
 }  // namespace
 
 void Settings::senseTruth() {
@@ -74,6 +85,7 @@ void Settings::overlayText(std::string_view toml, const std::string& nameForErro
 }
 
 WorldSettings Settings::world() const {
+  checkGoals(*this);
   WorldSettings world;
   world.solver = quickSolver ? WorldSettings::Solver::Quick : WorldSettings::Solver::Exact;
   world.threads = threads;

@@ -79,6 +79,35 @@ TEST(Charging, RunningIntoAnOpponentAwayFromTheBallIsAFoul) {
   EXPECT_EQ(c.sim.fouls()[0].unum, 5);
 }
 
+// Before kick-off the robots touch; afterwards number 5, now far away, runs. The rule looks at the contact
+// only then. Whether the fouls are those of a newcomer with the charger's number.
+int foulsAfterContactInPause(bool replaced) {
+  Settings settings = quietSettings();
+  settings.startAnyFieldPosition = true;  // the referee moves nobody
+  Charge c(settings);
+  c.place(c.charger, -5.5, 4.0);
+  c.place(c.victim, -5.0, 4.0, 180.0);
+  c.chargeOnce(c.charger, 1.0);
+  if (replaced) {
+    c.sim.disconnect(c.charger);
+    c.step();
+    c.charger = c.add(TeamSide::Left, 5);
+  }
+  c.place(c.charger, -8.0, 4.0);
+  c.place(c.victim, -5.0, 4.0, 180.0);
+  for (int i = 0; i < 6; ++i) {
+    if (i == 4) c.setMode(PlayMode::PlayOn);
+    c.push(c.charger, 1.0);
+    c.step();
+  }
+  return c.countFouls(FoulType::Charging);
+}
+
+TEST(Charging, ContactsOfAPlayerWhoHasLeftAreForgotten) {
+  EXPECT_GT(foulsAfterContactInPause(false), 0) << "the scene is wrong";
+  EXPECT_EQ(foulsAfterContactInPause(true), 0);
+}
+
 TEST(Charging, CanBeSwitchedOff) {
   Settings settings = quietSettings();
   settings.useCharging = false;

@@ -281,6 +281,23 @@ TEST(MonitorStream, ChangesOfTheSceneBringAFullMessage) {
   EXPECT_THAT(text, ::testing::HasSubstr("(resetMaterials matNum3 matRight matType2 naowhite)"));
 }
 
+// The stream saw the scene with one robot more under a version that the restored one would have had, too.
+TEST(MonitorStream, ARestoredSceneComesInFull) {
+  Scenario s;
+  s.add(TeamSide::Left, 1);
+  const std::vector<std::uint8_t> state = s.sim.save();
+  MonitorStream stream(s.sim);
+  Viewer viewer;
+  s.sim.connect();
+  viewer.feed(stream.next());
+  viewer.feed(stream.next());
+  ASSERT_FALSE(viewer.full);
+  s.sim.restore(state);
+  viewer.feed(stream.next());
+  EXPECT_TRUE(viewer.full);
+  expectScene(viewer, s.sim, 1e-4);
+}
+
 TEST(MonitorStream, EnvironmentAndGameStateAsTheFactsSay) {
   Scenario s;
   MonitorStream stream(s.sim);

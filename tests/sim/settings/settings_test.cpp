@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <map>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "nonet/sim/settings/declarations.h"
+#include "nonet/sim/simulation.h"
 
 namespace nonet::sim {
 namespace {
@@ -215,6 +217,19 @@ TEST(Settings, FieldPresets) {
   settings.setField("30x20");
   EXPECT_EQ(valuesOf(settings), valuesOf(Settings{}));
   EXPECT_THAT(messageOf([&] { settings.setField("9x6"); }), HasSubstr("30x20"));
+}
+
+// Each within its own range; the physics would end the process.
+TEST(Settings, ABallThatDoesNotFitIntoTheGoalsIsAnError) {
+  for (const auto& [name, value] : {std::pair{"GoalDepth", "0.05"}, std::pair{"BallRadius", "1"},
+                                    std::pair{"GoalWidth", "0"}, std::pair{"GoalDepth", "0"}}) {
+    Settings settings;
+    settings.set(name, value);
+    EXPECT_THAT(messageOf([&] { const Simulation simulation(settings); }),
+                AllOf(HasSubstr("GoalDepth"), HasSubstr("GoalWidth"), HasSubstr("BallRadius"),
+                      HasSubstr("make the goals larger or the ball smaller")))
+        << name;
+  }
 }
 
 TEST(Settings, WorldGetsTheGeometry) {

@@ -24,8 +24,11 @@ class Fouls {
   void reset();
   /// Velocities for charging. Every cycle, after the set piece rules.
   void sampleVelocities();
-  /// Forgets contacts of a player who has left, or whose side changed.
+  /// Forgets all contacts, when sides change; or those of a player who leaves or gets another number.
   void forgetContacts();
+  void forgetContacts(const Player& player);
+  /// Releases all joints of this robot, and forgets when they were frozen.
+  void thaw(const Player& player);
 
   /// A pair of opponents in contact, with the mean of all contact points since the rules last looked.
   struct OpponentContact {
@@ -49,7 +52,7 @@ class Fouls {
   void judgeSelfCollisions(TeamSide side);
   void selfCollision(const Player& player, model::BodyId first, model::BodyId second);
   void writeSelfCollision(const std::string& line);
-  void thawJoints(bool all);
+  void thawJoints();
   void judgePositions(TeamSide side);
   bool isCrowding(TeamSide side, int unum) const;
   bool isIllegalDefence(TeamSide side, int unum) const;

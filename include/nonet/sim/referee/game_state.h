@@ -62,7 +62,7 @@ class GameState {
   void kickOff(TeamSide side, const Settings& settings, Random& random);
 
   // -- teams
-  enum class Refusal : std::uint8_t { None, ThirdTeam, NumberTaken, NumberRange, TypeRule };
+  enum class Refusal : std::uint8_t { None, ThirdTeam, NumberTaken, NumberRange, TypeRule, TeamName };
   /// Registers a player. On success `side` and `unum` (which was 0 for "any") are set.
   Refusal registerPlayer(std::string_view team, int robotType, TeamSide& side, int& unum,
                          const Settings& settings);

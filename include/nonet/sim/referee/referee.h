@@ -27,6 +27,11 @@ class Referee {
   /// A number for a new robot's touch group.
   int newTouchGroup() { return c_.nextTouchGroup++; }
 
+  /// This player gets another number or side: what went by the old one is forgotten, its joints are free.
+  void changeNumber(const Player& player);
+  /// This player leaves.
+  void forget(const Player& player) { fouls_.forgetContacts(player); }
+
   /// An agent's `(pass)`: switches to pass mode if all conditions of server facts 4.9 hold.
   bool requestPassMode(const Player& player);
   /// Drop ball (server facts 4.7) where the ball is.

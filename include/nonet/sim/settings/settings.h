@@ -144,6 +144,7 @@ struct Settings {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit);
 
+  /// Throws config::ParameterError if the ball does not fit into the goals.
   WorldSettings world() const;
 };
 

@@ -1,0 +1,190 @@
+// The server on the loopback with clients that send too much, too little or too early.
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/server/running_server.h"
+
+namespace nonet::sim::test {
+namespace {
+
+using LoadClock = std::chrono::steady_clock;
+
+double secondsSince(LoadClock::time_point begin) {
+  return std::chrono::duration<double>(LoadClock::now() - begin).count();
+}
+
+ServerSettings inRealTime() {
+  ServerSettings serverSettings = lockStep();
+  serverSettings.lockStep = false;
+  serverSettings.realTime = true;
+  return serverSettings;
+}
+
+// Clients that send commands without pause, each from a thread of its own, until the end or until `seconds`
+// have passed.
+class Flood {
+ public:
+  Flood(std::uint16_t port, int clients, double seconds) {
+    for (int i = 0; i < clients; ++i) {
+      threads_.emplace_back([this, port, seconds] {
+        Client client(port);
+        std::string bytes;
+        for (int k = 0; k < 20000; ++k) protocol::appendFrame(bytes, "(he1 1)");
+        const auto begin = LoadClock::now();
+        while (!stopping_ && secondsSince(begin) < seconds && client.sendBytes(bytes)) {
+        }
+      });
+    }
+  }
+  ~Flood() { stop(); }
+  void stop() {
+    stopping_ = true;
+    for (std::thread& thread : threads_) {
+      if (thread.joinable()) thread.join();
+    }
+  }
+
+ private:
+  std::atomic<bool> stopping_{false};
+  std::vector<std::thread> threads_;
+};
+
+// How long a player's first cycles take while others flood the server.
+void expectPlayUnderFlood(const ServerSettings& serverSettings) {
+  Running running(serverSettings);
+  constexpr int kFlooders = 4;
+  constexpr double kFloodLasts = 15.0;  // s
+  Flood flood(running.server.agentPort(), kFlooders, kFloodLasts);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto begin = LoadClock::now();
+  EXPECT_EQ(play(running.server.agentPort(), 0, 1, "A", 40).find("LOST"), std::string::npos);
+  EXPECT_LT(secondsSince(begin), 0.6 * kFloodLasts) << "nobody waits for the end of the flood";
+  flood.stop();
+  // The end of those connections is not hidden behind what they have sent. The player's own is one more.
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  running.stop();
+  EXPECT_EQ(running.server.statistics().lost, kFlooders + 1);
+}
+
+TEST(BadClient, AFloodDoesNotHoldUpOthersInRealTime) {
+  expectPlayUnderFlood(inRealTime());
+}
+
+TEST(BadClient, AFloodDoesNotHoldUpOthersInLockStep) {
+  expectPlayUnderFlood(lockStep());
+}
+
+TEST(BadClient, TheServerCanBeStoppedUnderAFlood) {
+  Running running(inRealTime());
+  const Flood flood(running.server.agentPort(), 4, 15.0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const auto begin = LoadClock::now();
+  running.stop();
+  EXPECT_LT(secondsSince(begin), 5.0);
+}
+
+// In lock-step the answer counts, however much comes before it.
+TEST(LockStep, AnAnswerBehindMuchElseIsFound) {
+  Running running;
+  Client client(running.server.agentPort());
+  client.send(sceneText(0));
+  ASSERT_TRUE(client.receive());
+  std::string bytes;
+  while (bytes.size() < 300000) protocol::appendFrame(bytes, "(he1 1)");
+  protocol::appendFrame(bytes, "(syn)");
+  client.sendBytes(bytes);
+  const auto begin = LoadClock::now();
+  EXPECT_TRUE(client.receive());
+  EXPECT_LT(secondsSince(begin), 5.0);
+  client.close();
+  running.stop();
+  EXPECT_EQ(running.server.statistics().timeouts, 0);
+}
+
+TEST(LockStep, TheClockIsRealWhenNobodyAnswersAnyMore) {
+  ServerSettings serverSettings = lockStep();
+  serverSettings.answerTimeout = 0.2;
+  const Running running(serverSettings);
+  Client silent(running.server.agentPort());
+  silent.send(sceneText(0));
+  ASSERT_TRUE(silent.receive());
+  ASSERT_TRUE(silent.receive(5.0)) << "the server gives up waiting";
+  const auto begin = LoadClock::now();
+  for (int i = 0; i < 50; ++i) ASSERT_TRUE(silent.receive(5.0));
+  EXPECT_GT(secondsSince(begin), 0.8) << "50 cycles of 20 ms";
+}
+
+// The scene waits while another robot is being born; init, sent as blindly, must not be lost with it.
+TEST(RealTime, AnInitThatComesWhileTheSceneIsHeldBackCounts) {
+  const Running running(inRealTime());
+  Client first(running.server.agentPort());
+  first.send(sceneText(0));
+  Client second(running.server.agentPort());
+  second.send(sceneText(0));
+  second.send(initText(2, "A"));
+  ASSERT_TRUE(first.receive());
+  first.send(initText(1, "A"));
+  bool plays = false;
+  for (int i = 0; i < 50 && !plays; ++i) {
+    const auto message = second.receive(5.0);
+    ASSERT_TRUE(message);
+    plays = message->find("(unum 2)") != std::string::npos;
+  }
+  EXPECT_TRUE(plays);
+}
+
+// It is in the lobby when the match starts without it, and its init comes before its robot is built anew.
+TEST(LockStep, AnInitThatComesJustAfterTheStartCounts) {
+  ServerSettings serverSettings = lockStep();
+  serverSettings.players = 1;
+  const Running running(serverSettings);
+  Client late(running.server.agentPort());
+  late.send(sceneText(0));
+  ASSERT_TRUE(late.receive()) << "the lobby's answer";
+  Client ready(running.server.agentPort());
+  ready.send(sceneText(0));
+  ASSERT_TRUE(ready.receive());
+  ready.send(initText(1, "A"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the first cycle begins after 20
+  late.send(initText(2, "A"));
+  bool plays = false;
+  for (int i = 0; i < 100 && !plays; ++i) {
+    ASSERT_TRUE(ready.receive());
+    ready.send("(syn)");
+    const auto message = late.receive(0.5);
+    if (!message) continue;
+    late.send("(syn)");
+    plays = message->find("(unum 2)") != std::string::npos;
+  }
+  EXPECT_TRUE(plays);
+}
+
+TEST(Lobby, NobodyEntersAsARobotThatDoesNotExist) {
+  ServerSettings serverSettings = lockStep();
+  serverSettings.players = 1;
+  const Running running(serverSettings);
+  Client client(running.server.agentPort());
+  client.send("(scene rsg/agent/nao/nao_hetero.rsg 5)(syn)");
+  EXPECT_FALSE(client.receive(0.5));
+  client.send("(scene rsg/agent/nao/nao.rsg 100000000)(syn)");  // type 0, whatever follows
+  ASSERT_TRUE(client.receive());
+  client.send(initText(1, "A"));
+  bool plays = false;
+  for (int i = 0; i < 10 && !plays; ++i) {
+    const auto message = client.receive(5.0);
+    ASSERT_TRUE(message);
+    client.send("(syn)");
+    plays = message->find("(unum 1)") != std::string::npos;
+  }
+  EXPECT_TRUE(plays);
+}
+
+}  // namespace
+}  // namespace nonet::sim::test
