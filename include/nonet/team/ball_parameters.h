@@ -206,6 +206,8 @@ struct BallHandlingParameters {
   double circleRadius = 0.3;
   double circleOpen = 1.2;
   double circleLead = 0.08;
+  double circleAhead = 0.4;
+  double circleRolling = 0.4;
   double turnAlong = 4.0;
   double turnLast = 0.2;
   double turnedRoom = 0.05;
@@ -266,6 +268,14 @@ struct BallHandlingParameters {
            search(0, 0.2),
            "The way behind the ball begins where the present steps lead in this time"},
           self.circleLead);
+    visit({"circleAhead",
+           Unit::Second,
+           {0, 2},
+           search(0, 1),
+           "It leads behind where the ball will be in this time, or sooner if the robot is there sooner"},
+          self.circleAhead);
+    visit({"circleRolling", Unit::MetrePerSecond, {0, 10}, search(0, 1), "but a slower ball counts as lying"},
+          self.circleRolling);
     visit({"turnAlong",
            Unit::None,
            {0, 20},

@@ -48,6 +48,14 @@ Pose2 coast(const world::BodyState& body, double seconds) {
   return {cycles * body.odometryStep.translation, cycles * body.odometryStep.rotation};
 }
 
+// Where the ball will be when the robot comes to it, but not long after: others play it.
+Vector2 ballAhead(const Situation& s, const BallPlay& play) {
+  const BallHandlingParameters& p = s.parameters.ball;
+  const Vector2 velocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
+  if (velocity.norm() < p.circleRolling) return play.ball;
+  return play.ball + std::min(p.circleAhead, play.ball.norm() / s.parameters.pace.walkSpeed) * velocity;
+}
+
 // The curve outside of which the robot goes; wider while its feet point elsewhere.
 BallCurve curveAround(const Situation& s, const BallPlay& play, double turned) {
   const BallHandlingParameters& p = s.parameters.ball;
@@ -62,7 +70,7 @@ BallCurve curveAround(const Situation& s, const BallPlay& play, double turned) {
 Action goBehind(const Situation& s, const BallPlay& play) {
   const BallHandlingParameters& p = s.parameters.ball;
   const Pose2 X_RThen = coast(s.world.body, p.circleLead);
-  const Vector2 ball = X_RThen.inverse() * play.ball;
+  const Vector2 ball = X_RThen.inverse() * ballAhead(s, play);
   const double direction = wrapAngle(play.direction - X_RThen.rotation);
   const Pose2 X_RBall(ball, direction);
   const BallCurve curve = curveAround(s, play, direction);

@@ -1,0 +1,36 @@
+// The way behind a ball that rolls.
+#include <variant>
+
+#include <gtest/gtest.h>
+
+#include "nonet/team/behaviors.h"
+
+#include "scene.h"
+
+namespace nonet::team {
+namespace {
+
+// Where the robot at the centre is led, the ball a metre ahead with this speed; robot frame, m.
+Vector2 ledTo(const Vector2& speed, double ahead) {
+  Scene scene;
+  scene.stand(Pose2(0.0, 0.0, 0.0));
+  scene.putBall({ahead, 0.0}, speed);
+  Situation situation = assess(scene.world, scene.parameters, scene.motion);
+  situation.play = playTowards(situation, {15.0, 0.0}, KickUse::Clear);
+  const std::optional<Action> action = goBehindBall(situation);
+  return std::get<motion::WalkTo>(action->motion).target.translation;
+}
+
+TEST(GoBehindBall, LeadsBehindWhereTheBallWillBe) {
+  const BallHandlingParameters p;
+  const Vector2 resting = ledTo({0.0, 0.0}, 1.0);
+  const Vector2 rolling = ledTo({0.0, 1.0}, 1.0);
+  EXPECT_NEAR(rolling.y() - resting.y(), p.circleAhead, 0.05);
+  // Near by it is there sooner: after 0.2 m at the walking speed.
+  const double soon = 0.2 / PaceParameters().walkSpeed;
+  EXPECT_NEAR(ledTo({0.0, 1.0}, 0.2).y() - ledTo({0.0, 0.0}, 0.2).y(), soon, 0.05);
+  EXPECT_EQ(ledTo({0.0, 0.9 * p.circleRolling}, 1.0), resting) << "as good as lying";
+}
+
+}  // namespace
+}  // namespace nonet::team
