@@ -108,12 +108,32 @@ def effects(games, names, opponents):
     return [(n, fit[i], math.sqrt(variance * inverse[i][i])) for i, n in enumerate(names, len(opponents))]
 
 
-def fingerprint(program):
-    """Of the program and of what it plays with, so that no screening mixes two."""
-    data = pathlib.Path(os.environ.get("NONET_DATA") or ROOT)
+def data_beside(program):
+    """Where a program finds params/ and skills/ by itself, as src/agent/data_folder.cpp has it; else here."""
+    for folder in pathlib.Path(program).resolve().parents:
+        for data in (folder, folder / "share/nonet"):
+            if (data / "params").is_dir() and (data / "skills").is_dir():
+                return data
+    return ROOT
+
+
+def data_files(data):
+    return sorted(f for folder in ("params", "skills") for f in (data / folder).rglob("*") if f.is_file())
+
+
+def opponent_files(word):
+    """What decides how an opponent plays that is a folder or another program; a word is of our own data."""
+    path = pathlib.Path(word)
+    if word == "own" or not path.exists():
+        return []
+    return data_files(path) if path.is_dir() else [path, *data_files(data_beside(path))]
+
+
+def fingerprint(program, against):
+    """Of the program, of what it plays with and of its opponents, so that no screening mixes two."""
+    data = pathlib.Path(os.environ.get("NONET_DATA") or data_beside(program))
     try:
-        files = [pathlib.Path(program)]
-        files += sorted(f for folder in ("params", "skills") for f in (data / folder).rglob("*") if f.is_file())
+        files = [pathlib.Path(program), *data_files(data), *(f for word in against for f in opponent_files(word))]
         return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
     except OSError as trouble:
         sys.exit(f"cannot read {trouble.filename}: name the program with --nonet, its data with NONET_DATA")
@@ -171,8 +191,8 @@ def play_all(changes, settings, done):
             games = concurrent.futures.as_completed([pool.submit(one, pair) for pair in missing])
             for number, ended in enumerate(games, 1):
                 record = json.dumps(ended.result())
-                if fingerprint(settings.nonet) != settings.fingerprint:
-                    raise RuntimeError("the program, params/ or skills/ changed; put them back")
+                if fingerprint(settings.nonet, settings.against) != settings.fingerprint:
+                    raise RuntimeError("the program, an opponent, params/ or skills/ changed; put them back")
                 with (settings.out / "pairs.jsonl").open("a") as file:
                     file.write(record + "\n")
                 print(f"{number} of {len(missing)} pairs", file=sys.stderr, flush=True)
@@ -307,12 +327,47 @@ def self_test():
         values = measured(pathlib.Path(folder))
     expected = {"against": 2, "on target": 6, "passes": 4, "falls": 8, "charging": 0, "possession": 60}
     assert values == expected, values
+    test_fingerprint()
     print("screen: known effects found")
+
+
+def test_fingerprint():
+    """It changes with the program, its own data and each opponent that is a file or a folder, and with nothing else."""
+    kept = os.environ.pop("NONET_DATA", None)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        parts = {f"{tree}/{part}": tree for tree in ("now", "before", "other")
+                 for part in ("params/type0.toml", "skills/a.skl", "build/nonet")}
+        for part in parts:
+            (folder / part).parent.mkdir(parents=True, exist_ok=True)
+            (folder / part).write_text("x")
+        program, against = str(folder / "now/build/nonet"), ["own", "wall", str(folder / "before")]
+        last = fingerprint(program, against)
+        for part, tree in parts.items():
+            (folder / part).write_text("y")
+            now = fingerprint(program, against)
+            assert (now != last) == (tree == "now" or (tree == "before" and "build" not in part)), part
+            last = now
+        older = [str(folder / "other/build/nonet")]
+        last = fingerprint(program, older)
+        for part in ("other/build/nonet", "other/params/type0.toml"):
+            (folder / part).write_text("z")
+            assert fingerprint(program, older) != last, part
+            last = fingerprint(program, older)
+        os.environ["NONET_DATA"] = str(folder / "other")
+        last = fingerprint(program, ["own"])
+        (folder / "now/params/type0.toml").write_text("z")
+        assert fingerprint(program, ["own"]) == last
+        (folder / "other/params/type0.toml").write_text("w")
+        assert fingerprint(program, ["own"]) != last
+    os.environ.pop("NONET_DATA")
+    if kept is not None:
+        os.environ["NONET_DATA"] = kept
 
 
 def screen(settings):
     changes = read_changes(settings.changes)
-    settings.fingerprint = fingerprint(settings.nonet)
+    settings.fingerprint = fingerprint(settings.nonet, settings.against)
     plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
             "exact": settings.exact, "fingerprint": settings.fingerprint}
     if settings.scrums:
@@ -320,8 +375,8 @@ def screen(settings):
     settings.out.mkdir(parents=True, exist_ok=True)
     kept = settings.out / "plan.json"
     if kept.exists() and json.loads(kept.read_text()) != plan:
-        sys.exit(f"{settings.out} holds another screening (other changes or options, or the program, params/ or skills/ "
-                 "changed since); name another --out")
+        sys.exit(f"{settings.out} holds another screening (other changes or options, or the program, an opponent, params/ "
+                 "or skills/ changed since); name another --out")
     kept.write_text(json.dumps(plan, indent=1) + "\n")
     records = settings.out / "pairs.jsonl"
     done = {record["pair"] for record in read_records(records)}

@@ -32,7 +32,7 @@ std::string findData(const std::string& programFile, const std::string& givenBy,
     if (holdsData(folder / "share" / "nonet")) return (folder / "share" / "nonet").string();
     if (!folder.has_relative_path()) break;
   }
-  if (holdsData(sourceFolder)) return sourceFolder;
+  if (!sourceFolder.empty() && holdsData(sourceFolder)) return sourceFolder;
   throw DataError(fmt::format(
       "params/ and skills/ are missing: they are not above {}, nor in share/nonet there; set NONET_DATA "
       "or {} to the folder that holds both",

@@ -82,7 +82,8 @@ int listTasks() {
 }
 
 void printMeasurement(const lab::Measurement& measurement) {
-  fmt::print("fitness {:.6f} +- {:.4f}", measurement.fitness, measurement.standardError);
+  fmt::print("fitness {:.6f}", measurement.fitness);
+  if (!std::isnan(measurement.standardError)) fmt::print(" +- {:.4f}", measurement.standardError);
   for (const auto& [name, value] : measurement.measures) fmt::print(", {} {:.3f}", name, value);
   fmt::print("\n");
 }

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@ struct ReplayArguments {
   bool json = false;
   bool localization = false;
   std::string maps = "logs/maps";
+  std::set<std::string> mapsWritten;  // in this call
   bool trace = false;
   bool csv = false;
   double from = 0.0;  // s of the game
@@ -35,12 +37,19 @@ void printTrace(const agent::Session& session, const ReplayArguments& arguments)
   fmt::print("{}\n", arguments.csv ? agent::traceCsv(trace) : trace.dump());
 }
 
-/// "logs/3.zst" -> "FOLDER/3.zst.svg".
-std::string writeMap(const lab::LocalizationReport& report, const std::string& log,
-                     const std::string& folder) {
-  std::filesystem::create_directories(folder);
+/// "logs/3.zst" -> "FOLDER/3.zst.svg"; a further log of that name -> "FOLDER/3.zst-2.svg".
+std::string freeMap(const std::string& log, ReplayArguments& arguments) {
   const std::filesystem::path name = std::filesystem::path(log).filename();
-  std::string path = (std::filesystem::path(folder) / name).string() + ".svg";
+  const std::string plain = (std::filesystem::path(arguments.maps) / name).string();
+  std::string path = plain + ".svg";
+  for (int i = 2; !arguments.mapsWritten.insert(path).second; ++i) path = fmt::format("{}-{}.svg", plain, i);
+  return path;
+}
+
+std::string writeMap(const lab::LocalizationReport& report, const std::string& log,
+                     ReplayArguments& arguments) {
+  std::filesystem::create_directories(arguments.maps);
+  std::string path = freeMap(log, arguments);
   std::ofstream file(path);
   file << report.toSvg();
   if (!file.flush()) throw std::runtime_error("cannot write " + path);
@@ -48,9 +57,9 @@ std::string writeMap(const lab::LocalizationReport& report, const std::string& l
 }
 
 void printLocalization(const lab::LocalizationReport& report, const std::string& file,
-                       const ReplayArguments& arguments) {
+                       ReplayArguments& arguments) {
   const bool known = report.summary().frames > 0;
-  const std::string map = known ? writeMap(report, file, arguments.maps) : "";
+  const std::string map = known ? writeMap(report, file, arguments) : "";
   if (arguments.json) {
     nlohmann::ordered_json json = {{"file", file}};
     json.update(report.toJson());

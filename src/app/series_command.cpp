@@ -73,8 +73,8 @@ int runSeries(SeriesArguments& arguments) {
   }
   if (!arguments.sequential.empty()) settings.sequential = lab::parseSequentialBounds(arguments.sequential);
   settings.place = lab::placeFor(settings);
-  if (!settings.serverCommand.empty() && !serverPlace(settings.place))
-    throw std::runtime_error("--server-command needs --where HOST:PORT:MONITORPORT: what it is to start");
+  (void)serverPlace(settings.place);  // a word that is no place
+  lab::checkPlace(settings);
   settings.commandLine = commandLine();
   if (arguments.out.empty())
     arguments.out = fmt::format("logs/series-{:%Y%m%d-%H%M%S}", fmt::gmtime(std::time(nullptr)));

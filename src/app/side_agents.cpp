@@ -15,6 +15,12 @@ std::optional<PlayProgram> programOf(const lab::SideSettings& side) {
   return side.executable.empty() ? PlayProgram() : PlayProgram(side.executable);
 }
 
+// Told to the program, for else it would play with what NONET_DATA says, which is meant for this one. Empty:
+// it finds none by itself, or cannot be told.
+std::string dataOf(const PlayProgram& program) {
+  return program.knows("--data") ? lab::dataBeside(program.executable()) : "";
+}
+
 }  // namespace
 
 std::string filledIn(std::string text,
@@ -49,7 +55,7 @@ void SideAgents::start(bool rightTeam, const ServerPlace& server, bool lockStep)
   for (int unum = 1; unum <= team.players; ++unum) {
     const std::string name = fmt::format("{}/{}_{}", logs_, team.name, unum);
     PlayPlace place{server.host, server.port, lockStep, team.dataFolder, name + ".json"};
-    if (side.ours() && place.dataFolder.empty()) place.dataFolder = dataFolder_;
+    if (place.dataFolder.empty()) place.dataFolder = side.ours() ? dataFolder_ : dataOf(*program);
     agents_.push_back({rightTeam, false, place.report});
     processes_.start(playCommand(*program, lab::agentChoice(match_, rightTeam, unum), place), name + ".txt");
   }

@@ -1,7 +1,6 @@
 // nonet skill check FILES, nonet skill format FILES: the tools of the skill language.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 
 #include "nonet/app/commands.h"
 #include "nonet/config/toml.h"
+#include "nonet/lab/common/atomic_file.h"
 #include "nonet/motion/skill_language.h"
 #include "nonet/motion/skill_library.h"
 
@@ -140,9 +140,7 @@ int format(const SkillArguments& arguments) {
       fmt::print(stderr, "{}: not formatted (nonet skill format {})\n", file, file);
       continue;
     }
-    std::ofstream out(file, std::ios::binary);
-    out << after;
-    if (!out.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", file));
+    lab::writeAtomically(file, after);
     fmt::print("{}: formatted\n", file);
   }
   return arguments.testOnly && changed > 0 ? 1 : 0;

@@ -7,6 +7,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/series_games.h"
 #include "nonet/app/series_run.h"
 #include "nonet/app/team_name.h"
 #include "nonet/app/version.h"
@@ -46,6 +47,12 @@ int runTable(TableArguments& arguments) {
       throw std::runtime_error(fmt::format("{}: side '{}': {}", arguments.file, side.name, error.what()));
     }
   }
+  std::vector<lab::TableEntry> entries = lab::tableEntries(table);
+  for (const lab::TableEntry& entry : entries) {
+    const lab::SeriesSettings settings = lab::seriesOf(table, entry);
+    (void)serverPlace(settings.place);  // a word that is no place
+    lab::checkPlace(settings);
+  }
   table.games.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
   table.games.version = versionText();
   table.games.commandLine = commandLine();
@@ -54,13 +61,12 @@ int runTable(TableArguments& arguments) {
   std::filesystem::create_directories(arguments.out);
 
   Console console(arguments.json ? stderr : stdout);
-  std::vector<lab::TableEntry> entries = lab::tableEntries(table);
+  const std::vector<std::string> folders = lab::entryFolders(table, entries);
   bool complete = true;
   for (std::size_t i = 0; i < entries.size() && complete; ++i) {
     const lab::SeriesSettings settings = lab::seriesOf(table, entries[i]);
     const SeriesRun run = playSeries(
-        settings, fmt::format("{}/{}-{}", arguments.out, settings.a.name, settings.b.name), arguments.jobs,
-        data, console,
+        settings, arguments.out + "/" + folders[i], arguments.jobs, data, console,
         fmt::format("{} - {} ({} of {}): ", settings.a.name, settings.b.name, i + 1, entries.size()));
     entries[i].result = run.result;
     complete = run.complete;

@@ -59,6 +59,21 @@ TEST(ReplayCommand, LocalizationHasThePromisedKeysAndAMapPerLog) {
   fs::remove_all(maps);
 }
 
+TEST(ReplayCommand, LogsOfOneNameHaveMapsOfTheirOwn) {
+  const TestFolder folder("nonet_maps_same");
+  for (const char* half : {"first", "second"}) {
+    fs::create_directories(folder.file(half));
+    fs::copy(NONET_TEST_DATA "/replay/crowd.log.gz", folder.file(half) + "/3.log.gz");
+  }
+  std::istringstream lines(outputOf("replay --localization --json --maps " + folder.file("maps") + " " +
+                                    folder.file("first/3.log.gz") + " " + folder.file("second/3.log.gz")));
+  std::vector<std::string> maps;
+  for (std::string line; std::getline(lines, line);)
+    maps.push_back(fs::path(nlohmann::json::parse(line).at("map").get<std::string>()).filename().string());
+  EXPECT_EQ(maps, (std::vector<std::string>{"3.log.gz.svg", "3.log.gz-2.svg"}));
+  for (const std::string& map : maps) EXPECT_TRUE(fs::exists(folder.file("maps/" + map))) << map;
+}
+
 class ReplayFiles : public testing::Test {
  protected:
   std::string write(const std::string& name, const std::string& text) const {

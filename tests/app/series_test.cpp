@@ -107,6 +107,44 @@ TEST(SeriesCommand, AnotherExecutablePlaysOverTcp) {
   EXPECT_THAT(textOf(there + "/times.jsonl"), HasSubstr("\"late_b\":0"));
 }
 
+// A program that says how it was called, and plays no game: NONET_DATA is of this program, --data of that
+// one.
+TEST(SeriesCommand, AnotherExecutableIsToldItsOwnData) {
+  const TestFolder folder("nonet_series_data");
+  for (const char* part : {"older/params", "older/skills", "older/build"})
+    fs::create_directories(folder.file(part));
+  const std::string older = folder.file("older/build/nonet");
+  std::ofstream(older)
+      << "#!/bin/sh\n[ \"$2\" = --help ] && echo ' --host --port --unum --team --type --data '\n"
+         "[ \"$2\" = --help ] || echo \"$@\" >> '" +
+             folder.file("calls") + "'\nexit 9\n";
+  fs::permissions(older, fs::perms::owner_all);
+  std::vector<std::string> arguments = seriesOf({"own", "--b-binary", older}, folder.file("games"));
+  arguments.insert(arguments.begin(), {std::string("NONET_DATA=") + NONET_SOURCE_DIR, NONET_BINARY});
+  Program series("/usr/bin/env", arguments, folder.file("1.txt"));
+  EXPECT_EQ(series.wait(), 1);
+  EXPECT_THAT(textOf(folder.file("calls")),
+              HasSubstr("--data " + fs::canonical(folder.file("older")).string()));
+}
+
+TEST(SeriesCommand, OptionsThatDoNothingOnAServerApartAreRefused) {
+  const TestFolder folder("nonet_series_apart");
+  const std::vector<std::string> apart = {"own", "own", "--where", "127.0.0.1:1:2"};
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--set", "QuickSolver=true"}, {"--monitor-logs"}}) {
+    std::vector<std::string> arguments = apart;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Program series(seriesOf(arguments, folder.file("games")), folder.file("1.txt"));
+    ASSERT_EQ(series.wait(), 1);
+    EXPECT_THAT(series.output(), HasSubstr(more.front()));
+  }
+  std::ofstream(folder.file("t.toml")) << "pairs = 1\nserverCommand = 'start'\n[[side]]\nname = 'full'\n"
+                                          "side = 'own'\n[[side]]\nname = 'boxes'\n";
+  Program table({"table", folder.file("t.toml"), "--out", folder.file("out")}, folder.file("2.txt"));
+  ASSERT_EQ(table.wait(), 1);
+  EXPECT_THAT(table.output(), HasSubstr("serverCommand"));
+}
+
 // Foreign agents are started by a shell command, in the background, as teams of the league do; all of them
 // are stopped afterwards.
 TEST(SeriesCommand, AShellCommandStartsForeignAgents) {

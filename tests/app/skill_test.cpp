@@ -122,6 +122,20 @@ TEST_F(SkillCommand, ChecksAndFormatsSkillsThatAreLikeNeighbours) {
   EXPECT_THAT(check({file}).second, HasSubstr(file + ":1:20: there is no skill 'base'"));
 }
 
+// The file is exchanged, not emptied first: whoever has it open still reads the old text.
+TEST_F(SkillCommand, FormatNeverTruncatesAndKeepsTheMode) {
+  const std::string file = write("mode.skl", "skill waiting{\nwait 1s\n}\n");
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+  std::ifstream open(file);
+  Program program({"skill", "format", file}, folder.file("out.txt"));
+  EXPECT_EQ(program.wait(), 0) << program.output();
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(open), {}), "skill waiting{\nwait 1s\n}\n");
+  std::ifstream formatted(file);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(formatted), {}), "skill waiting {\n  wait 1s\n}\n");
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_FALSE(fs::exists(file + ".new"));
+}
+
 TEST_F(SkillCommand, EndsWhateverItReads) {
   const std::string whole = "skill a { if upright { move over 1s { left.knee 1deg } } else { call b } }";
   for (std::size_t cut = 0; cut < whole.size(); ++cut) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <boost/math/distributions/students_t.hpp>
+#include <fmt/format.h>
 
 namespace nonet::lab {
 
@@ -14,7 +15,7 @@ double mean(const std::vector<double>& sample) {
 }
 
 double standardError(const std::vector<double>& sample) {
-  if (sample.size() < 2) return 0.0;
+  if (sample.size() < 2) return std::numeric_limits<double>::quiet_NaN();
   const double middle = mean(sample);
   double squares = 0.0;
   for (const double value : sample) squares += (value - middle) * (value - middle);
@@ -24,7 +25,7 @@ double standardError(const std::vector<double>& sample) {
 
 Estimate estimate(const std::vector<double>& sample) {
   if (sample.empty()) return {};
-  if (sample.size() < 2) return {mean(sample), 0.0};
+  if (sample.size() < 2) return {mean(sample), standardError(sample)};
   const boost::math::students_t student(static_cast<double>(sample.size()) - 1.0);
   return {mean(sample), boost::math::quantile(student, 0.975) * standardError(sample)};
 }
@@ -38,6 +39,10 @@ Estimate estimateShare(std::size_t hits, std::size_t trials) {
   const double centre = scale * (share + kZ * kZ / (2.0 * n));
   const double half = scale * kZ * std::sqrt(share * (1.0 - share) / n + kZ * kZ / (4.0 * n * n));
   return {share, half + std::abs(centre - share)};
+}
+
+std::string errorText(double error) {
+  return std::isnan(error) ? "-" : fmt::format("{:.3f}", error);
 }
 
 double quantile(std::vector<double> sample, double share) {

@@ -42,6 +42,15 @@ SideSettings sideFromJson(const ordered_json& json) {
   return side;
 }
 
+// A number as TOML has it, which is less than what people write: not .5, 5. or 007. Empty: it is none.
+std::string numberToml(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars knows no plus
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole ? fmt::format("{}", number) : "";
+}
+
 // "key=value" as a line of TOML: numbers and truth values bare, anything else is a text with a unit.
 std::string assignmentToml(const std::string& assignment) {
   const std::size_t equal = assignment.find('=');
@@ -49,11 +58,9 @@ std::string assignmentToml(const std::string& assignment) {
     throw std::runtime_error(
         fmt::format("'{}': expected key=value, such as team.formation.stopperBehind=2m", assignment));
   const std::string value = assignment.substr(equal + 1);
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  const bool bare =
-      (error == std::errc() && end == value.data() + value.size()) || value == "true" || value == "false";
-  return fmt::format("{} = {}\n", assignment.substr(0, equal), bare ? value : "\"" + value + "\"");
+  std::string bare = value == "true" || value == "false" ? value : numberToml(value);
+  if (bare.empty()) bare = "\"" + value + "\"";
+  return fmt::format("{} = {}\n", assignment.substr(0, equal), bare);
 }
 
 std::string overlayFile(const std::string& folder, bool sideB) {
@@ -93,6 +100,7 @@ std::string fingerprintOfFiles(const std::vector<std::string>& files) {
 std::string dataOf(const SideSettings& side, const std::string& dataFolder) {
   if (!side.dataFolder.empty()) return side.dataFolder;
   if (side.executable.empty()) return dataFolder;
+  if (const std::string own = dataBeside(side.executable); !own.empty()) return own;
   try {
     return agent::dataFolder("", "", side.executable, "");
   } catch (const agent::DataError&) {
@@ -101,6 +109,16 @@ std::string dataOf(const SideSettings& side, const std::string& dataFolder) {
 }
 
 }  // namespace
+
+std::string dataBeside(const std::string& executable) {
+  std::error_code error;
+  const fs::path real = fs::canonical(executable, error);  // as the program sees itself
+  try {
+    return error ? "" : agent::findData(real.string(), "", "");
+  } catch (const agent::DataError&) {
+    return "";
+  }
+}
 
 std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder) {
   if (!side.command.empty()) return "";
@@ -231,6 +249,27 @@ std::string placeFor(const SeriesSettings& settings) {
         "{} against {}: in one process only this program can play: give tcp as the place, or none",
         settings.a.name, settings.b.name));
   return settings.place;
+}
+
+void checkPlace(const SeriesSettings& settings) {
+  const bool here = settings.place == "process" || settings.place == "tcp" || settings.place == "realtime";
+  const auto demand = [](bool holds, const std::string& what) {
+    if (!holds) throw std::runtime_error(what);
+  };
+  if (here)
+    return demand(settings.serverCommand.empty(),
+                  "--server-command (serverCommand of a table) needs --where HOST:PORT:MONITORPORT (where): "
+                  "the server that it starts");
+  // A server apart has settings of its own, and its monitor stream is only counted.
+  demand(settings.settingAssignments.empty(),
+         fmt::format("--set {} (settings of a table) does nothing on a server at {}: give it to that server",
+                     fmt::join(settings.settingAssignments, " --set "), settings.place));
+  demand(settings.settingFiles.empty(),
+         fmt::format("--settings {} does nothing on a server at {}: give it to that server",
+                     fmt::join(settings.settingFiles, " "), settings.place));
+  demand(!settings.monitorLogs,
+         fmt::format("--monitor-logs keeps nothing of a server at {}: record there, or leave --where out",
+                     settings.place));
 }
 
 SeriesGame gameOf(const SeriesSettings& settings, int index) {

@@ -1,6 +1,7 @@
 #include "nonet/lab/match/table.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -98,6 +99,24 @@ std::vector<TableEntry> tableEntries(const TableSettings& table) {
     }
   }
   return entries;
+}
+
+std::vector<std::string> entryFolders(const TableSettings& table, const std::vector<TableEntry>& entries) {
+  std::vector<std::string> folders;
+  std::set<std::string> plain;
+  for (const TableEntry& entry : entries) {
+    folders.push_back(table.sides[entry.a].name + "-" + table.sides[entry.b].name);
+    plain.insert(folders.back());
+  }
+  std::set<std::string> taken;
+  for (std::string& folder : folders) {
+    const std::string name = folder;
+    // "-2" and so on could be the end of another entry's name.
+    for (int i = 2; taken.contains(folder) || (folder != name && plain.contains(folder)); ++i)
+      folder = fmt::format("{}-{}", name, i);
+    taken.insert(folder);
+  }
+  return folders;
 }
 
 SeriesSettings seriesOf(const TableSettings& table, const TableEntry& entry) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -65,6 +66,7 @@ std::string provenanceToml(const Provenance& origin) {
     if (text.find_first_of(".en") == std::string::npos) text += ".0";
     return text;
   };
+  // Whole numbers of TOML have 64 bits with a sign: the reader casts the seed back.
   return fmt::format(
       "[provenance.{}]\n"
       "task = \"{}\"\n"
@@ -79,9 +81,9 @@ std::string provenanceToml(const Provenance& origin) {
       "seeds = {}\n"
       "date = \"{}\"\n"
       "version = \"{}\"\n",
-      origin.task, origin.task, origin.robotType, origin.quickSolver ? kQuick : kExact, origin.runSeed,
-      origin.population, origin.generation, origin.budget, real(origin.fitness), real(origin.standardError),
-      origin.seeds.toToml(), origin.date, origin.version);
+      origin.task, origin.task, origin.robotType, origin.quickSolver ? kQuick : kExact,
+      static_cast<std::int64_t>(origin.runSeed), origin.population, origin.generation, origin.budget,
+      real(origin.fitness), real(origin.standardError), origin.seeds.toToml(), origin.date, origin.version);
 }
 
 // What a reader wants to know first.
@@ -92,8 +94,8 @@ std::string summary(const std::vector<Provenance>& origins) {
       "#\n"
       "#   task              fitness            trials  found\n";
   for (const Provenance& origin : origins) {
-    text += fmt::format("#   {:<16} {:9.3f} +- {:<7.3f} {:6}  {}\n", origin.task, origin.fitness,
-                        origin.standardError, origin.seeds.size(), origin.date);
+    text += fmt::format("#   {:<16} {:9.3f} +- {:<7} {:6}  {}\n", origin.task, origin.fitness,
+                        errorText(origin.standardError), origin.seeds.size(), origin.date);
   }
   return text;
 }
@@ -129,7 +131,8 @@ Provenance Provenance::fromJson(const json& value) {
   value.at("generation").get_to(origin.generation);
   value.at("budget").get_to(origin.budget);
   value.at("fitness").get_to(origin.fitness);
-  value.at("standardError").get_to(origin.standardError);
+  const json& error = value.at("standardError");  // JSON has no NaN
+  origin.standardError = error.is_null() ? std::numeric_limits<double>::quiet_NaN() : error.get<double>();
   origin.seeds = SeedList::fromJson(value.at("seeds"));
   value.at("date").get_to(origin.date);
   value.at("version").get_to(origin.version);

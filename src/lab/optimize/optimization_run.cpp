@@ -58,7 +58,8 @@ const OptimizationSettings& checked(const OptimizationSettings& settings) {
   demand(settings.population == 0 || settings.population >= kSmallestPopulation,
          "the population must be 4 or more, or 0 for CMA-ES' default", settings.population);
   demand(settings.trials >= 1, "trials must be 1 or more", settings.trials);
-  demand(settings.validationTrials >= 1, "validation trials must be 1 or more", settings.validationTrials);
+  demand(settings.validationTrials >= 2, "validation trials must be 2 or more: one has no standard error",
+         settings.validationTrials);
   demand(settings.validationEvery >= 1, "generations between validations must be 1 or more",
          settings.validationEvery);
   return settings;
@@ -136,10 +137,8 @@ OptimizationRun OptimizationRun::resume(const std::string& folder, const std::st
                                         std::optional<int> generations) {
   OptimizationSettings settings = readSettings(folder);
   const std::shared_ptr<void> lock = lockFolder(folder);
-  if (generations && *generations != settings.generations) {
-    settings.generations = *generations;
-    writeAtomically(folder + kConfig, settings.toJson().dump(1) + "\n");
-  }
+  const bool extended = generations && *generations != settings.generations;
+  if (extended) settings.generations = *generations;
   OptimizationRun run(folder, settings, dataFolder);
   run.lock_ = lock;
   // Killed before the first checkpoint: from the beginning.
@@ -151,6 +150,8 @@ OptimizationRun OptimizationRun::resume(const std::string& folder, const std::st
   if (!fs::exists(lines) || static_cast<std::int64_t>(fs::file_size(lines)) < run.bytes_)
     throw std::runtime_error(
         fmt::format("{} is shorter than its checkpoint says; the run is damaged", lines));
+  // Nothing is written before all is found well: a refused run can be resumed as it was.
+  if (extended) writeAtomically(folder + kConfig, settings.toJson().dump(1) + "\n");
   fs::resize_file(lines, static_cast<std::uintmax_t>(run.bytes_));
   if (run.incumbent_.seeds.size() == 0) {
     fs::remove(folder + kBest);

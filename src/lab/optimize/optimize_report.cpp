@@ -49,13 +49,15 @@ PlotBand around(const std::string& name, const std::string& color, const std::ve
   return band;
 }
 
-/// Of the mean of the best candidate's trials; NaN where the file does not hold them.
+/// Of the mean of the best candidate's trials; NaN where the file does not hold them. Who lost a race early
+/// has fewer trials, over which its mean may be higher by luck.
 double bestError(const json& line) {
+  const std::size_t trials = std::max<std::size_t>(line.value("seeds", json::array()).size(), 2);
   double best = -std::numeric_limits<double>::infinity();
   double error = std::numeric_limits<double>::quiet_NaN();
   for (const json& candidate : line.value("candidates", json::array())) {
     const auto values = candidate.at("values").get<std::vector<double>>();
-    if (values.size() < 2 || mean(values) <= best) continue;
+    if (values.size() < trials || mean(values) <= best) continue;
     best = mean(values);
     error = standardError(values);
   }
@@ -128,7 +130,7 @@ std::string fitnessText(const OptimizationSettings& settings, const std::vector<
       settings.validationEvery, settings.validationTrials);
   if (last.contains("incumbentGeneration") && last["incumbent"].is_number()) {
     text += fmt::format("; now {:.4g}", last["incumbent"].get<double>());
-    if (last.contains("incumbentError"))
+    if (last.contains("incumbentError") && last["incumbentError"].is_number())
       text += fmt::format(" &plusmn; {:.2g}", last["incumbentError"].get<double>());
     text += fmt::format(" from {} trials, of generation {}", last["incumbentTrials"].get<long>(),
                         last["incumbentGeneration"].get<int>());

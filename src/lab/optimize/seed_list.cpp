@@ -68,14 +68,16 @@ SeedList SeedList::fromJson(const json& value) {
   return list;
 }
 
+// Whole numbers of TOML have 64 bits with a sign: the reader casts back.
 std::string SeedList::toToml() const {
+  const auto number = [](std::uint64_t seed) { return static_cast<std::int64_t>(seed); };
   std::vector<std::string> texts;
   for (const auto& item : items_) {
     if (const auto* draw = std::get_if<SeedDraw>(&item)) {
-      texts.push_back(fmt::format("{{ seed = {}, generation = {}, count = {} }}", draw->seed,
+      texts.push_back(fmt::format("{{ seed = {}, generation = {}, count = {} }}", number(draw->seed),
                                   draw->generation, draw->count));
     } else {
-      texts.push_back(fmt::format("{}", std::get<std::uint64_t>(item)));
+      texts.push_back(fmt::format("{}", number(std::get<std::uint64_t>(item))));
     }
   }
   return fmt::format("[{}]", fmt::join(texts, ", "));

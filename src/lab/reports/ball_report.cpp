@@ -217,8 +217,8 @@ std::string ballReportTable(const BallReport& report) {
   for (const BallSkillReport& skill : report.skills) {
     for (const BallFigure& figure : skill.figures) {
       const bool first = &figure == &skill.figures.front();
-      out += fmt::format("{:<10} {:<32} {:>8.3f} {:>7.3f} {:>7} {:>6} {:>6}\n", first ? skill.skill : "",
-                         figure.what, figure.value.mean, figure.value.ci95, figure.trials,
+      out += fmt::format("{:<10} {:<32} {:>8.3f} {:>7} {:>7} {:>6} {:>6}\n", first ? skill.skill : "",
+                         figure.what, figure.value.mean, errorText(figure.value.ci95), figure.trials,
                          first ? fmt::format("{}", skill.falls) : "",
                          first ? fmt::format("{}", skill.selfCollisions) : "");
     }

@@ -34,6 +34,7 @@ Apex apexOf(const Kick& kick) {
 }
 
 double deviation(const std::vector<double>& sample) {
+  if (sample.size() < 2) return 0.0;
   return standardError(sample) * std::sqrt(static_cast<double>(sample.size()));
 }
 

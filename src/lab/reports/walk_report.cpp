@@ -9,6 +9,7 @@
 #include "nonet/math/random.h"
 
 #include "lab/common/parallel.h"
+#include "lab/reports/walk_speeds.h"
 
 namespace nonet::lab {
 
@@ -18,8 +19,6 @@ using motion::MotionRequest;
 
 constexpr double kFast = 10.0;        // m/s: more than any set allows, so that the set decides
 constexpr double kFastTurn = 20.0;    // rad/s
-constexpr double kAccelerate = 3.0;   // s, from the stand
-constexpr double kSteady = 4.0;       // s, measured afterwards
 constexpr double kHeadingGain = 2.0;  // 1/s, keeps the robot's heading while it walks in a direction
 constexpr double kFarTarget = 40.0;   // m
 
@@ -66,23 +65,20 @@ Walk walkInDirection(MeasuredRobot& trial, const WalkReportSettings& settings, d
   const Vector2 along = unitVector(direction);
   motion::WalkVelocity request;
   Walk walk;
-  double before = 0.0;
-  const int cycles = static_cast<int>((kAccelerate + kSteady) / kCycleTime);
+  WalkSpeeds speeds;
+  const int cycles = static_cast<int>((WalkSpeeds::kAccelerate + WalkSpeeds::kSteady) / kCycleTime);
   for (int i = 0; i < cycles; ++i) {
     const double error = wrapAngle(start.rotation - noisy.of(trial).rotation);
     request.velocity = Pose2(kFast * along, kHeadingGain * error);
     trial.step(request);
-    const double distance = (start.inverse() * trial.pose()).translation.dot(along);
-    if (i + 1 == static_cast<int>(kAccelerate / kCycleTime)) {
-      before = distance;
-      walk.fromStand = distance / kAccelerate;
-    }
     if (trial.down()) {
       walk.fell = true;
       break;
     }
-    walk.steady = (distance - before) / kSteady;
+    speeds.add((start.inverse() * trial.pose()).translation.dot(along));
   }
+  walk.fromStand = speeds.fromStand;
+  walk.steady = speeds.steady;
   return walk;
 }
 
@@ -121,7 +117,7 @@ Walk turnOnTheSpot(MeasuredRobot& trial, double sense, std::uint64_t seed) {
   double turned = 0.0;
   double last = trial.pose().rotation;
   const int accelerate = static_cast<int>(1.0 / kCycleTime);
-  const int cycles = accelerate + static_cast<int>(kSteady / kCycleTime);
+  const int cycles = accelerate + static_cast<int>(WalkSpeeds::kSteady / kCycleTime);
   for (int i = 0; i < cycles; ++i) {
     trial.step(request);
     const double now = trial.pose().rotation;
@@ -132,7 +128,7 @@ Walk turnOnTheSpot(MeasuredRobot& trial, double sense, std::uint64_t seed) {
       break;
     }
   }
-  walk.steady = sense * turned / kSteady;
+  walk.steady = sense * turned / WalkSpeeds::kSteady;
   return walk;
 }
 

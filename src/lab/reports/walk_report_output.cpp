@@ -32,7 +32,7 @@ nlohmann::ordered_json toJson(const Estimate& e) {
   return {{"mean", rounded(e.mean)}, {"ci95", rounded(e.ci95)}};
 }
 std::string text(const Estimate& e) {
-  return fmt::format("{:7.3f} +- {:.3f}", e.mean, e.ci95);
+  return fmt::format("{:7.3f} +- {:<5}", e.mean, errorText(e.ci95));
 }
 
 constexpr double kCenter = 300.0;  // of the polar plot

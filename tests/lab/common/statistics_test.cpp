@@ -1,5 +1,7 @@
 #include "nonet/lab/common/statistics.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace nonet::lab {
@@ -11,7 +13,17 @@ TEST(Statistics, EstimatesMeanAndInterval) {
   EXPECT_DOUBLE_EQ(e.mean, 5.0);
   EXPECT_NEAR(e.ci95, 2.306004 * 2.738613 / 3.0, 1e-5);
   EXPECT_EQ(estimate({}).mean, 0.0);
-  EXPECT_EQ(estimate({3.0}).ci95, 0.0);
+}
+
+// One value says nothing of how others would scatter: an interval of 0 would be certainty.
+TEST(Statistics, FewerThanTwoValuesHaveNoInterval) {
+  for (const std::vector<double>& few : {std::vector<double>{}, {3.0}}) {
+    EXPECT_TRUE(std::isnan(standardError(few)));
+    EXPECT_TRUE(std::isnan(estimate(few).ci95));
+  }
+  EXPECT_EQ(estimate({3.0}).mean, 3.0);
+  EXPECT_EQ(errorText(standardError({3.0})), "-");
+  EXPECT_EQ(errorText(standardError({3.0, 5.0})), "1.000");
 }
 
 TEST(Statistics, QuantileIsAValueOfTheSample) {
@@ -29,7 +41,7 @@ TEST(Statistics, AShareHasAnIntervalAlsoAtItsEnds) {
   EXPECT_NEAR(estimateShare(10, 10).mean - estimateShare(10, 10).ci95, 0.722, 5e-4);
   EXPECT_NEAR(estimateShare(0, 10).ci95, 0.278, 5e-4);
   EXPECT_NEAR(estimateShare(50, 100).ci95, 0.096, 5e-4);
-  EXPECT_EQ(estimateShare(0, 0).ci95, 0.0);
+  EXPECT_TRUE(std::isnan(estimateShare(0, 0).ci95));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -316,6 +317,76 @@ TEST(Series, ATeamAgainstItselfInThisProcess) {
   EXPECT_EQ(result.games, 4);
   EXPECT_EQ(result.difference.mean, 0.0);
   EXPECT_EQ(result.difference.standardError, 0.0);
+}
+
+// What --set takes as a number comes to the agents of a game as that number, however it is written.
+TEST(Series, AssignmentsReachTheFileAsTheyWereMeant) {
+  const Folder folder("overlay");
+  fs::create_directories(folder.path());
+  SeriesSettings settings = settingsOf(1);
+  settings.a.assignments = {"a=.5", "b=5.", "c=007", "d=+5", "e=1e3", "f=-0.25", "g=true", "h=2m"};
+  writeOverlays(settings, folder.path());
+  EXPECT_EQ(folder.text("set-a.toml"),
+            "a = 0.5\nb = 5\nc = 7\nd = 5\ne = 1000\nf = -0.25\ng = true\nh = \"2m\"\n");
+}
+
+std::string placeError(const SeriesSettings& settings) {
+  try {
+    checkPlace(settings);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Series, WhatWouldDoNothingOnAServerApartIsRefusedByName) {
+  SeriesSettings settings = settingsOf(1);
+  settings.place = "localhost:3100:3200";
+  settings.serverCommand = "start {port}";
+  settings.a.assignments = {"team.ball.kick=false"};  // of the agents: these play
+  EXPECT_EQ(placeError(settings), "");
+  SeriesSettings other = settings;
+  other.settingAssignments = {"QuickSolver=true"};
+  EXPECT_NE(placeError(other).find("--set QuickSolver=true"), std::string::npos);
+  other = settings;
+  other.settingFiles = {"server.toml"};
+  EXPECT_NE(placeError(other).find("--settings server.toml"), std::string::npos);
+  other = settings;
+  other.monitorLogs = true;
+  EXPECT_NE(placeError(other).find("--monitor-logs"), std::string::npos);
+  for (const char* place : {"process", "tcp", "realtime"}) {
+    other.place = place;
+    EXPECT_NE(placeError(other).find("--server-command"), std::string::npos) << place;
+    other.serverCommand.clear();
+    other.settingAssignments = {"QuickSolver=true"};
+    EXPECT_EQ(placeError(other), "") << place;
+    other.serverCommand = settings.serverCommand;
+  }
+}
+
+// NONET_DATA is for this program: another one plays with what lies beside it.
+TEST(Series, AnotherExecutablePlaysWithItsOwnData) {
+  const Folder tree("older");
+  const Folder elsewhere("elsewhere");
+  for (const Folder* folder : {&tree, &elsewhere}) {
+    for (const char* name : {"/params", "/skills", "/build"}) fs::create_directories(folder->path() + name);
+  }
+  SideSettings side;
+  side.executable = tree.path() + "/build/nonet";
+  std::ofstream(side.executable) << "older";
+  EXPECT_EQ(dataBeside(side.executable), fs::canonical(tree.path()).string());
+  EXPECT_EQ(dataBeside("/nowhere/nonet"), "");
+
+  const std::string before = fingerprintOf(side, "");
+  const char* set = std::getenv("NONET_DATA");
+  const std::string kept = set != nullptr ? set : "";
+  ::setenv("NONET_DATA", elsewhere.path().c_str(), 1);
+  std::ofstream(elsewhere.path() + "/params/type0.toml") << "x = 1";
+  EXPECT_EQ(fingerprintOf(side, ""), before);
+  std::ofstream(tree.path() + "/params/type0.toml") << "x = 1";
+  EXPECT_NE(fingerprintOf(side, ""), before);
+  ::unsetenv("NONET_DATA");
+  if (!kept.empty()) ::setenv("NONET_DATA", kept.c_str(), 1);
 }
 
 // An unknown parameter is an error before anything is played or written.

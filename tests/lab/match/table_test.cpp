@@ -93,6 +93,20 @@ TEST(Table, EverybodyAgainstEverybodyOrOneAgainstAll) {
   EXPECT_EQ(seriesOf(table, entries[1]).place, "process");
 }
 
+// "low" against "line-x" and "low-line" against "x" would both be low-line-x.
+TEST(Table, EveryEntryHasAFolderOfItsOwn) {
+  TableSettings table;
+  for (const char* name : {"low", "low-line", "line-x", "x", "x-2"}) {
+    table.sides.emplace_back();
+    table.sides.back().name = name;
+  }
+  const std::vector<TableEntry> entries = tableEntries(table);
+  const std::vector<std::string> folders = entryFolders(table, entries);
+  EXPECT_THAT(folders,
+              ::testing::ElementsAre("low-low-line", "low-line-x", "low-x", "low-x-2", "low-line-line-x",
+                                     "low-line-x-3", "low-line-x-2", "line-x-x", "line-x-x-2", "x-x-2"));
+}
+
 TEST(Table, ErrorsNameTheLine) {
   EXPECT_THAT(TableFile("pears = 7\n").error(), HasSubstr(".toml:1: unknown key 'pears'"));
   EXPECT_THAT(TableFile("pairs = 7\nminutes = 'x'\n").error(), HasSubstr(".toml:2: minutes"));

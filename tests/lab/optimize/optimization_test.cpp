@@ -1,7 +1,9 @@
 // The run folder: the same bytes whatever interrupts it, values that can be measured again.
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -172,6 +174,27 @@ TEST_F(RunFolder, RefusesToOverwriteARunAndToResumeNone) {
   EXPECT_THROW(OptimizationRun::resume(root_ + "/other", "", std::nullopt), std::runtime_error);
 }
 
+// A search can be made longer, not shorter; who asks for that must not lose it.
+TEST_F(RunFolder, ARefusedResumeLeavesTheRunAsItWas) {
+  OptimizationSettings five = settings();
+  five.generations = 5;
+  const std::string folder = root_ + "/run";
+  {
+    auto run = OptimizationRun::create(folder, five, "");
+    finish(run, 1);
+  }
+  const std::string config = bytes(folder + "/config.json");
+  EXPECT_THROW(OptimizationRun::resume(folder, "", 3), std::runtime_error);
+  EXPECT_EQ(bytes(folder + "/config.json"), config);
+  EXPECT_NO_THROW(OptimizationRun::resume(folder, "", std::nullopt));
+}
+
+TEST_F(RunFolder, OneValidationTrialHasNoStandardError) {
+  OptimizationSettings one = settings();
+  one.validationTrials = 1;
+  EXPECT_THROW(OptimizationRun::create(root_ + "/run", one, ""), std::runtime_error);
+}
+
 // When mpirun is killed its ranks may live on for a while.
 TEST_F(RunFolder, IsHeldByOneProcess) {
   auto run = OptimizationRun::create(root_ + "/run", settings(), "");
@@ -198,6 +221,33 @@ TEST_F(RunFolder, WritesAReportWithACurvePerParameter) {
   EXPECT_EQ(bands, run.space().keys().size() + 2);
 }
 
+// In a race a candidate that was lucky in its first trials may have the highest mean, but is not the best.
+TEST_F(RunFolder, TheReportsBandIsOfTheBestOfThoseWithAllTrials) {
+  OptimizationSettings shortRun = settings();
+  shortRun.generations = 4;
+  auto run = OptimizationRun::create(root_ + "/run", shortRun, "");
+  finish(run, 1);
+  const std::string lines = root_ + "/run/generations.jsonl";
+  std::vector<nlohmann::json> generations;
+  {
+    std::ifstream file(lines);
+    for (std::string text; std::getline(file, text);) generations.push_back(nlohmann::json::parse(text));
+  }
+  const auto reportWith = [&](const std::vector<double>& lucky) {
+    std::ofstream file(lines, std::ios::trunc);
+    for (nlohmann::json line : generations) {
+      if (!lucky.empty()) line["candidates"].push_back({{"point", {0.0}}, {"values", lucky}});
+      file << line.dump() << "\n";
+    }
+    file.close();
+    return bytes(writeOptimizationReport(root_ + "/run", ""));
+  };
+  ASSERT_EQ(generations.size(), 4U);
+  ASSERT_EQ(generations[0].at("seeds").size(), 3U);
+  EXPECT_EQ(reportWith({500.0, 600.0}), reportWith({}));
+  EXPECT_NE(reportWith({500.0, 600.0, 700.0}), reportWith({})) << "with all trials it counts";
+}
+
 TEST(Configuration, SurvivesItsFile) {
   OptimizationSettings settings;
   settings.task = "quadratic";
@@ -208,6 +258,7 @@ TEST(Configuration, SurvivesItsFile) {
   origin.fitness = 0.1;
   origin.seeds.add(4294967295U);
   origin.seeds.add(SeedDraw{7, 5, 16});
+  origin.standardError = std::numeric_limits<double>::quiet_NaN();  // of one trial
   settings.inherited.push_back(origin);
   const auto text = settings.toJson().dump();
   EXPECT_EQ(OptimizationSettings::fromJson(nlohmann::json::parse(text)).toJson().dump(), text);
@@ -260,6 +311,24 @@ TEST(LearnedFile, OpensWithWhatWasReachedAndKeepsTheRuleOfItsSeeds) {
   EXPECT_EQ(read[0].seeds.all(), trialSeeds(1, 0, SeedStream::Validation, 100));
   agent::AgentParameters parameters;
   EXPECT_NO_THROW(config::overlayFile(parameters, path));
+}
+
+TEST(LearnedFile, KeepsTheHighestSeeds) {
+  constexpr std::uint64_t kHighest = std::numeric_limits<std::uint64_t>::max();
+  Provenance origin;
+  origin.task = "quadratic";
+  origin.runSeed = kHighest;
+  origin.standardError = std::numeric_limits<double>::quiet_NaN();
+  origin.seeds.add(kHighest - 1);
+  origin.seeds.add(SeedDraw{kHighest, 0, 3});
+  const std::string path = testing::TempDir() + "/highest_" + std::to_string(::getpid()) + ".toml";
+  writeAtomically(path, learnedToml({}, {}, {"motion.walk.gait.maxStepX"}, {origin}));
+  const std::vector<Provenance> read = readProvenance(path);
+  fs::remove(path);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].runSeed, kHighest);
+  EXPECT_EQ(read[0].seeds.all(), origin.seeds.all());
+  EXPECT_TRUE(std::isnan(read[0].standardError));
 }
 
 // 1 - 6 sum d^2 / (n (n^2 - 1)), where there are no ties.

@@ -44,6 +44,10 @@ SideSettings sideFromWord(const std::string& word, const std::string& dataFolder
 /// Names of the variants there, in alphabetical order.
 std::vector<std::string> variantsIn(const std::string& dataFolder);
 
+/// The folder with params/ and skills/ that this executable of Nonet finds from where it lies, without
+/// NONET_DATA; empty: none. An older program must not play with the data of this one.
+std::string dataBeside(const std::string& executable);
+
 /// A hash of what decides how the side plays, as far as files tell: the executable, its params/ and skills/,
 /// the parameter files; empty for a command. `dataFolder`: of this program.
 std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder);
@@ -81,6 +85,10 @@ struct SeriesSettings {
 /// Where the games are played: what `place` says; empty: in this process if that can be. Throws
 /// std::runtime_error: in this process, but a side is another program.
 std::string placeFor(const SeriesSettings& settings);
+
+/// What would do nothing where the games are played (placeFor()): settings or monitor logs of a server that
+/// is not ours, a command for a server that is. Throws std::runtime_error that names the option.
+void checkPlace(const SeriesSettings& settings);
 
 /// Those of both sides and of the server's settings, as the files are now.
 void takeFingerprints(SeriesSettings& settings, const std::string& dataFolder);

@@ -46,6 +46,9 @@ struct TableEntry {
 
 /// All entries, nothing played yet.
 std::vector<TableEntry> tableEntries(const TableSettings& table);
+/// The folder of each entry's series: A-B, with a number where an earlier entry has that name already ("a-b"
+/// against "c", "a" against "b-c").
+std::vector<std::string> entryFolders(const TableSettings& table, const std::vector<TableEntry>& entries);
 SeriesSettings seriesOf(const TableSettings& table, const TableEntry& entry);
 
 /// Goal difference per ten minutes with standard error, games won, tied and lost.

@@ -22,10 +22,10 @@ struct Provenance {
   bool quickSolver = false;
   std::uint64_t runSeed = 0;
   int population = 0;
-  int generation = 0;       // in which these values were found
-  std::int64_t budget = 0;  // simulated trials until then
-  double fitness = 0.0;     // mean over `seeds`
-  double standardError = 0.0;
+  int generation = 0;          // in which these values were found
+  std::int64_t budget = 0;     // simulated trials until then
+  double fitness = 0.0;        // mean over `seeds`
+  double standardError = 0.0;  // NaN for fewer than two
   SeedList seeds;
   std::string date;
   std::string version;
@@ -49,7 +49,7 @@ void replaceProvenance(std::vector<Provenance>& list, const Provenance& origin);
 /// Fitness and named measures, means over the seeds.
 struct Measurement {
   double fitness = 0.0;
-  double standardError = 0.0;
+  double standardError = 0.0;  // NaN for fewer than two seeds
   std::vector<std::pair<std::string, double>> measures;
 };
 /// Called after each trial with those that are done and all; from any thread.
