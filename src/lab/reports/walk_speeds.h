@@ -5,7 +5,7 @@
 
 namespace nonet::lab {
 
-// Of a walk that ends early, what is left of the times counts as a stand.
+// Of a walk that ends early, what is left of the time at a steady speed counts as a stand.
 struct WalkSpeeds {
   static constexpr double kAccelerate = 3.0;  // s, from the stand
   static constexpr double kSteady = 4.0;      // s, measured afterwards

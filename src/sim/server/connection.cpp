@@ -6,7 +6,6 @@
 #include <asio/buffer.hpp>
 #include <asio/error.hpp>
 #include <fmt/format.h>
-#include <poll.h>
 #include <spdlog/spdlog.h>
 
 namespace nonet::sim {
@@ -52,16 +51,9 @@ void Connection::start(std::function<void(std::string_view)> onMessage, std::fun
 
 void Connection::resume() {
   if (dead_ || delivering_) return;
-  // The end must not hide behind megabytes that wait to be read.
-  if (share_ == 0 && endedByPeer()) return die("closed by the other side");
   share_ = kReadShare;
   deliver();
   read();
-}
-
-bool Connection::endedByPeer() {
-  pollfd state{socket_.native_handle(), POLLRDHUP, 0};  // POLLERR and POLLHUP are always told
-  return ::poll(&state, 1, 0) > 0;
 }
 
 void Connection::read() {

@@ -50,7 +50,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   void read();
-  bool endedByPeer();
   void deliver();
   void flush();
   void waitToFlush();

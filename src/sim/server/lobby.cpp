@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -13,8 +14,8 @@ const protocol::Percept* Lobby::receive(const protocol::Effectors& message) {
   if (!scene_) {
     if (!message.scene) return nullptr;
     if (!typeOf(*message.scene)) {
-      spdlog::warn("lobby: there is no robot type {} in scene file '{}'", message.scene->robotType,
-                   std::string_view(message.scene->file));
+      if (!std::exchange(told_, true))
+        spdlog::warn("lobby: there is no robot type {} in that scene file", message.scene->robotType);
       return nullptr;  // it may try again
     }
     scene_ = message.scene;

@@ -52,7 +52,7 @@ const std::string& MonitorStream::full() {
 
 const std::string& MonitorStream::next(bool wantFull) {
   const std::vector<AgentInfo> agents = simulation_.agents();
-  lastWasFull_ = wantFull || !anySent_ || sentScene_ != simulation_.sceneVersion() || !fits(agents);
+  lastWasFull_ = wantFull || !anySent_ || sentScene_ != simulation_.sceneVersion();
   sentFouls_ = std::min(sentFouls_, simulation_.fouls().size());  // fewer after a restore
   text_.clear();
   writeEnvironment(lastWasFull_);
@@ -64,15 +64,6 @@ const std::string& MonitorStream::next(bool wantFull) {
   anySent_ = true;
   sentScene_ = simulation_.sceneVersion();
   return text_;
-}
-
-// A difference names nothing: it is matched by position.
-bool MonitorStream::fits(const std::vector<AgentInfo>& agents) const {
-  std::size_t moving = 1;  // the ball
-  for (const AgentInfo& agent : agents) {
-    if (agent.robot != kNoRobot) moving += model::robotModel(agent.robotType).bodies().size();
-  }
-  return moving == sentMatrices_.size() && agents.size() == sentSelected_.size();
 }
 
 // Server facts 5.1.

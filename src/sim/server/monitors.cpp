@@ -73,12 +73,14 @@ int Monitors::sendMessages() {
   return lost;
 }
 
+// Who sends a command and closes at once has it executed all the same.
 void Monitors::reap() {
+  const auto gone = [](const auto& link) { return link->connection->dead() && link->commands.empty(); };
   for (const auto& link : links_) {
-    if (!link->connection->dead()) continue;
+    if (!gone(link)) continue;
     spdlog::info("server: monitor {} is gone: {}", link->connection->peer(), link->connection->reason());
   }
-  std::erase_if(links_, [](const auto& link) { return link->connection->dead(); });
+  std::erase_if(links_, gone);
 }
 
 void Monitors::closeAll() {

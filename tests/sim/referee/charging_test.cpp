@@ -80,7 +80,7 @@ TEST(Charging, RunningIntoAnOpponentAwayFromTheBallIsAFoul) {
 }
 
 // Before kick-off the robots touch; afterwards number 5, now far away, runs. The rule looks at the contact
-// only then. Whether the fouls are those of a newcomer with the charger's number.
+// only then. With `replaced`, number 5 has left before, and the one that runs is a newcomer.
 int foulsAfterContactInPause(bool replaced) {
   Settings settings = quietSettings();
   settings.startAnyFieldPosition = true;  // the referee moves nobody

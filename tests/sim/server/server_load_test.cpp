@@ -67,7 +67,7 @@ void expectPlayUnderFlood(const ServerSettings& serverSettings) {
   EXPECT_EQ(play(running.server.agentPort(), 0, 1, "A", 40).find("LOST"), std::string::npos);
   EXPECT_LT(secondsSince(begin), 0.6 * kFloodLasts) << "nobody waits for the end of the flood";
   flood.stop();
-  // The end of those connections is not hidden behind what they have sent. The player's own is one more.
+  // What they have sent is read to its end, share by share. The player's own is one more.
   std::this_thread::sleep_for(std::chrono::seconds(3));
   running.stop();
   EXPECT_EQ(running.server.statistics().lost, kFlooders + 1);
@@ -113,10 +113,10 @@ TEST(LockStep, TheClockIsRealWhenNobodyAnswersAnyMore) {
   serverSettings.answerTimeout = 0.2;
   const Running running(serverSettings);
   Client silent(running.server.agentPort());
+  const auto begin = LoadClock::now();
   silent.send(sceneText(0));
   ASSERT_TRUE(silent.receive());
   ASSERT_TRUE(silent.receive(5.0)) << "the server gives up waiting";
-  const auto begin = LoadClock::now();
   for (int i = 0; i < 50; ++i) ASSERT_TRUE(silent.receive(5.0));
   EXPECT_GT(secondsSince(begin), 0.8) << "50 cycles of 20 ms";
 }

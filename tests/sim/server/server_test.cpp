@@ -330,6 +330,26 @@ TEST(Disconnect, FreesTheNumber) {
   EXPECT_THAT(play(running.server.agentPort(), 0, 5, "A", 10), ::testing::HasSubstr("(unum 5)"));
 }
 
+TEST(Monitor, ACommandCountsThoughItsSenderHasGone) {
+  const Running running;
+  Client watcher(running.server.monitorPort());
+  ASSERT_TRUE(watcher.receive());
+  for (int i = 0; i < 10; ++i) {
+    const bool playOn = i % 2 == 0;
+    Client trainer(running.server.monitorPort());
+    trainer.send(playOn ? "(playMode PlayOn)" : "(playMode BeforeKickOff)");
+    trainer.close();
+    const std::string_view wanted = playOn ? "(play_mode 3)" : "(play_mode 0)";
+    bool seen = false;
+    for (int k = 0; k < 50 && !seen; ++k) {
+      const auto message = watcher.receive(1.0);
+      ASSERT_TRUE(message);
+      seen = message->find(wanted) != std::string::npos;
+    }
+    EXPECT_TRUE(seen) << i;
+  }
+}
+
 TEST(Monitor, GetsAFullSceneAtOnceAndDrivesTheGame) {
   Running running;
   Client monitor(running.server.monitorPort());

@@ -27,9 +27,9 @@ class Referee {
   /// A number for a new robot's touch group.
   int newTouchGroup() { return c_.nextTouchGroup++; }
 
-  /// This player gets another number or side: what went by the old one is forgotten, its joints are free.
+  /// This player gets another number or side: its contacts are forgotten, its joints are free.
   void changeNumber(const Player& player);
-  /// This player leaves.
+  /// This player leaves: its contacts are forgotten.
   void forget(const Player& player) { fouls_.forgetContacts(player); }
 
   /// An agent's `(pass)`: switches to pass mode if all conditions of server facts 4.9 hold.

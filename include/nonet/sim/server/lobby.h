@@ -34,6 +34,7 @@ class Lobby {
   AgentHandle agent_ = kNoAgent;
   std::optional<protocol::SceneEffector> scene_;
   std::optional<protocol::InitEffector> init_;
+  bool told_ = false;  // that there is no such robot
 };
 
 /// The order in which these players enter: settings.leftTeam first, or else the team whose name is first in

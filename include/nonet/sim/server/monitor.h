@@ -39,7 +39,6 @@ class MonitorStream {
   enum class Form { Whole, FirstDifference, Difference };
 
   /// Whether these have as many places as the last full message.
-  bool fits(const std::vector<AgentInfo>& agents) const;
   void writeEnvironment(bool all);
   void writeGameState(bool all);
   void writeScene(Form form, const std::vector<AgentInfo>& agents, bool remember);
