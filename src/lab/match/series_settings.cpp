@@ -100,7 +100,7 @@ std::string fingerprintOfFiles(const std::vector<std::string>& files) {
 std::string dataOf(const SideSettings& side, const std::string& dataFolder) {
   if (!side.dataFolder.empty()) return side.dataFolder;
   if (side.executable.empty()) return dataFolder;
-  if (const std::string own = dataBeside(side.executable); !own.empty()) return own;
+  if (std::string own = dataBeside(side.executable); !own.empty()) return own;
   try {
     return agent::dataFolder("", "", side.executable, "");
   } catch (const agent::DataError&) {
