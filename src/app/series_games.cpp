@@ -141,7 +141,7 @@ std::uint16_t portFrom(std::string_view text) {
 }  // namespace
 
 std::optional<ServerPlace> serverPlace(const std::string& place) {
-  if (place == "process" || place == "tcp" || place == "realtime") return std::nullopt;
+  if (lab::playedHere(place)) return std::nullopt;
   const std::size_t last = place.rfind(':');
   const std::size_t middle = last == std::string::npos || last == 0 ? last : place.rfind(':', last - 1);
   ServerPlace server;

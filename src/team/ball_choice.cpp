@@ -109,7 +109,7 @@ double kickValue(const Situation& s, double direction, double length, bool maySc
   const double flown = scores > 0.0 ? std::min(toLine, length) : length;
   const Block block = blockOf(s, s.ball() + flown * unitVector(direction));
   const double free = scores + (1.0 - scores) * endValue(s, s.ball() + length * unitVector(direction));
-  return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, kStopped);
+  return valueUnlessStopped(s, block, free);
 }
 
 BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
@@ -117,9 +117,8 @@ BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
   const ChoiceParameters& p = s.parameters.choice;
   const double first =
       probabilityFirst(teammatesTime(s, p_FReceiver), opponentsTime(s, p_FReceiver), p.arrivalSpread);
-  const Block block = blockOf(s, s.setPlay->p_FTarget);
-  const double value = (1.0 - block.probability) * valueAt(s, p_FReceiver, p.shortPass * first) +
-                       block.probability * valueAt(s, block.p_F, kStopped);
+  const double value =
+      valueUnlessStopped(s, blockOf(s, s.setPlay->p_FTarget), valueAt(s, p_FReceiver, p.shortPass * first));
   BallChoice best{false, s.setPlay->p_FTarget, value, {}};
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.setPlay->p_FReceiver, best.value);

@@ -61,8 +61,7 @@ std::optional<double> valueOf(const Situation& s, const world::PlayerState& mate
   const double ours = receiverFirst(s, mate, pass, resistance.arrival);
   if (ours < p.ours || block.probability > p.lane) return std::nullopt;
   const double comesOff = probabilityFirst(pass.untilKick, left, s.parameters.choice.setupSpread);
-  const double played = (1.0 - block.probability) * valueAt(s, pass.p_FTarget, ours) +
-                        block.probability * valueAt(s, block.p_F, kStopped);
+  const double played = valueUnlessStopped(s, block, valueAt(s, pass.p_FTarget, ours));
   return comesOff * played + (1.0 - comesOff) * valueAt(s, s.ball(), kContested);
 }
 

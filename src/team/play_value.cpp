@@ -57,6 +57,10 @@ Block blockOf(const Situation& s, const Vector2& end) {
   return block;
 }
 
+double valueUnlessStopped(const Situation& s, const Block& block, double free) {
+  return (1.0 - block.probability) * free + block.probability * valueAt(s, block.p_F, kStopped);
+}
+
 double timeToContact(const Situation& s, const motion::KickHead& kick, double direction) {
   const ChoiceParameters& p = s.parameters.choice;
   const Pose2& X_FR = s.world.self.X_FR;

@@ -28,6 +28,9 @@ struct Block {
 /// Of the ball on the straight way from where it lies.
 Block blockOf(const Situation& situation, const Vector2& end);
 
+/// Of a ball that is worth `free` unless it is stopped.
+double valueUnlessStopped(const Situation& situation, const Block& block, double free);
+
 /// s from now until the foot meets the ball in this kick, when the robot must face this direction for it
 /// (rad, own field frame; docs/results.md, contact times).
 double timeToContact(const Situation& situation, const motion::KickHead& kick, double direction);

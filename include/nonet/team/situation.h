@@ -47,6 +47,8 @@ struct Situation {
   double lastBeam = world::kNever;  // server time at which one asked to be beamed, s
 
   Vector2 ball() const { return world.ball.p_FB.head<2>(); }
+  /// m/s, robot frame.
+  Vector2 ballVelocity() const { return world.self.X_FR.inverse().rotate(world.ball.v_FB.head<2>()); }
   world::Phase phase() const { return world.game.phase; }
   bool waitsForKickOff() const;
   /// m from the ball that everybody keeps while the opponents have it to themselves.

@@ -251,12 +251,15 @@ std::string placeFor(const SeriesSettings& settings) {
   return settings.place;
 }
 
+bool playedHere(const std::string& place) {
+  return place == "process" || place == "tcp" || place == "realtime";
+}
+
 void checkPlace(const SeriesSettings& settings) {
-  const bool here = settings.place == "process" || settings.place == "tcp" || settings.place == "realtime";
   const auto demand = [](bool holds, const std::string& what) {
     if (!holds) throw std::runtime_error(what);
   };
-  if (here)
+  if (playedHere(settings.place))
     return demand(settings.serverCommand.empty(),
                   "--server-command (serverCommand of a table) needs --where HOST:PORT:MONITORPORT (where): "
                   "the server that it starts");

@@ -20,7 +20,7 @@ struct Line {
 Line lineAhead(const Situation& s) {
   const BallPlay& play = *s.play;
   const world::BodyState& body = s.world.body;
-  const Vector2 rolls = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
+  const Vector2 rolls = s.ballVelocity();
   const Vector2 walks = body.odometryStep.translation / std::max(body.cycleTime, 1e-3);
   const Vector2 ball = play.ball + s.parameters.dribble.lead * (rolls - walks);
   return {ball.dot(play.along), ball.dot(play.aside)};

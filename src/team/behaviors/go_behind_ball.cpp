@@ -51,7 +51,7 @@ Pose2 coast(const world::BodyState& body, double seconds) {
 // Where the ball will be when the robot comes to it, but not long after: others play it.
 Vector2 ballAhead(const Situation& s, const BallPlay& play) {
   const BallHandlingParameters& p = s.parameters.ball;
-  const Vector2 velocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
+  const Vector2 velocity = s.ballVelocity();
   if (velocity.norm() < p.circleRolling) return play.ball;
   return play.ball + std::min(p.circleAhead, play.ball.norm() / s.parameters.pace.walkSpeed) * velocity;
 }

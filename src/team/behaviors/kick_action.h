@@ -10,7 +10,7 @@ inline Action kickAction(const Situation& s, const BallPlay& play, const char* d
   motion::KickTo request;
   request.ball = play.ball;
   request.target = play.target;
-  request.ballVelocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
+  request.ballVelocity = s.ballVelocity();
   request.room = s.nearestOpponent;
   request.kick.assign(play.kick);
   Action action(request, detail);

@@ -44,7 +44,7 @@ std::optional<Meeting> meetingOf(const Vector2& ball, const Vector2& way, const 
 std::optional<Action> receive(const Situation& s) {
   const ReceiveParameters& p = s.parameters.receive;
   if (!p.use || !s.play || s.play->wait || !world::isOpenPlay(s.phase())) return std::nullopt;
-  const Vector2 velocity = s.world.self.X_FR.inverse().rotate(s.world.ball.v_FB.head<2>());
+  const Vector2 velocity = s.ballVelocity();
   const Vector2& ball = s.play->ball;
   const double comes = -velocity.dot(ball) / std::max(ball.norm(), 1e-6);
   if (comes < p.speed) return std::nullopt;

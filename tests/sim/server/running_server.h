@@ -25,6 +25,13 @@ inline ServerSettings lockStep() {
   return serverSettings;
 }
 
+inline ServerSettings inRealTime() {
+  ServerSettings serverSettings = lockStep();
+  serverSettings.lockStep = false;
+  serverSettings.realTime = true;
+  return serverSettings;
+}
+
 // A server that runs in its own thread until the end of the test.
 class Running {
  public:

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -18,13 +19,6 @@ using LoadClock = std::chrono::steady_clock;
 
 double secondsSince(LoadClock::time_point begin) {
   return std::chrono::duration<double>(LoadClock::now() - begin).count();
-}
-
-ServerSettings inRealTime() {
-  ServerSettings serverSettings = lockStep();
-  serverSettings.lockStep = false;
-  serverSettings.realTime = true;
-  return serverSettings;
 }
 
 // Clients that send commands without pause, each from a thread of its own, until the end or until `seconds`
@@ -55,6 +49,17 @@ class Flood {
   std::atomic<bool> stopping_{false};
   std::vector<std::thread> threads_;
 };
+
+// One of the next so many messages says this; each is answered, if with anything.
+bool hears(Client& client, std::string_view wanted, int messages, std::string_view answer = {}) {
+  for (int i = 0; i < messages; ++i) {
+    const auto message = client.receive(5.0);
+    if (!message) return false;
+    if (!answer.empty()) client.send(answer);
+    if (message->find(wanted) != std::string::npos) return true;
+  }
+  return false;
+}
 
 // How long a player's first cycles take while others flood the server.
 void expectPlayUnderFlood(const ServerSettings& serverSettings) {
@@ -131,13 +136,7 @@ TEST(RealTime, AnInitThatComesWhileTheSceneIsHeldBackCounts) {
   second.send(initText(2, "A"));
   ASSERT_TRUE(first.receive());
   first.send(initText(1, "A"));
-  bool plays = false;
-  for (int i = 0; i < 50 && !plays; ++i) {
-    const auto message = second.receive(5.0);
-    ASSERT_TRUE(message);
-    plays = message->find("(unum 2)") != std::string::npos;
-  }
-  EXPECT_TRUE(plays);
+  EXPECT_TRUE(hears(second, "(unum 2)", 50));
 }
 
 // It is in the lobby when the match starts without it, and its init comes before its robot is built anew.
@@ -176,14 +175,7 @@ TEST(Lobby, NobodyEntersAsARobotThatDoesNotExist) {
   client.send("(scene rsg/agent/nao/nao.rsg 100000000)(syn)");  // type 0, whatever follows
   ASSERT_TRUE(client.receive());
   client.send(initText(1, "A"));
-  bool plays = false;
-  for (int i = 0; i < 10 && !plays; ++i) {
-    const auto message = client.receive(5.0);
-    ASSERT_TRUE(message);
-    client.send("(syn)");
-    plays = message->find("(unum 1)") != std::string::npos;
-  }
-  EXPECT_TRUE(plays);
+  EXPECT_TRUE(hears(client, "(unum 1)", 10, "(syn)"));
 }
 
 }  // namespace

@@ -389,10 +389,7 @@ TEST(Monitor, KillsimEndsTheServerAndKillRemovesARobot) {
 }
 
 TEST(RealTime, KeepsTheClock) {
-  ServerSettings serverSettings = lockStep();
-  serverSettings.lockStep = false;
-  serverSettings.realTime = true;
-  const Running running(serverSettings);
+  const Running running(inRealTime());
   Client client(running.server.agentPort());
   client.send(sceneText(0));
   ASSERT_TRUE(client.receive());
@@ -405,10 +402,7 @@ TEST(RealTime, KeepsTheClock) {
 // All robots are built at the same place: without turns they would stand in each other, and a cycle take
 // seconds.
 TEST(RealTime, ManyThatComeAtOnceAreBornOneAfterTheOther) {
-  ServerSettings serverSettings = lockStep();
-  serverSettings.lockStep = false;
-  serverSettings.realTime = true;
-  const Running running(serverSettings);
+  const Running running(inRealTime());
   constexpr int kMany = 6;
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < kMany; ++i) {

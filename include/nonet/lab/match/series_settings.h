@@ -86,6 +86,9 @@ struct SeriesSettings {
 /// std::runtime_error: in this process, but a side is another program.
 std::string placeFor(const SeriesSettings& settings);
 
+/// "process", "tcp" or "realtime": our own server; anything else is the place of another one.
+bool playedHere(const std::string& place);
+
 /// What would do nothing where the games are played (placeFor()): settings or monitor logs of a server that
 /// is not ours, a command for a server that is. Throws std::runtime_error that names the option.
 void checkPlace(const SeriesSettings& settings);

@@ -38,7 +38,6 @@ class MonitorStream {
   // mesh.
   enum class Form { Whole, FirstDifference, Difference };
 
-  /// Whether these have as many places as the last full message.
   void writeEnvironment(bool all);
   void writeGameState(bool all);
   void writeScene(Form form, const std::vector<AgentInfo>& agents, bool remember);
