@@ -41,7 +41,6 @@ findBinary() {
   binary=$root/build/release/nonet
 }
 
-isNumber() { [[ $1 =~ ^[0-9]+$ ]]; }
 isReal() { [[ $1 =~ ^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)$ ]]; }
 
 # HOST [PORT] and the league's options; the rest, after --, goes to `nonet play`.
@@ -75,7 +74,7 @@ parseArguments() {
 oneAgent() { [ -z "$countGiven" ] || fail "-n is for scripts/start.sh: this one starts one agent"; }
 checkAddress() {
   [ -n "$host" ] || fail "HOST is empty"
-  isNumber "$port" && [ "$port" -ge 1 ] && [ "$port" -le 65535 ] || fail "the port must be 1 to 65535, not '$port'"
+  [[ $port =~ ^[0-9]{1,5}$ ]] && [ "$port" -ge 1 ] && [ "$port" -le 65535 ] || fail "the port must be 1 to 65535, not '$port'"
   [[ $team =~ ^[^[:space:]/\;\"\(\)]{1,64}$ ]] ||
     fail "team '$team': blanks, brackets, quotes, semicolons and slashes cannot be in a name"
 }

@@ -39,8 +39,9 @@ import threading
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-def read_changes(path):
-    """{name: [assignment, ...]}, with "name:1", "name:2" for two ways; ends the program at a line that cannot be used."""
+def read_changes(path, refusal):
+    """{name: [assignment, ...]}, with "name:1", "name:2" for two ways; ends the program at a line that cannot be used:
+    `refusal` tells why the program would not take these assignments, or nothing."""
     changes, owner = {}, {}
     try:
         text = pathlib.Path(path).read_text()
@@ -58,11 +59,23 @@ def read_changes(path):
         for key in (a.split("=")[0] for way in ways for a in way):
             if owner.setdefault(key, name) != name:
                 sys.exit(f"{path}:{number}: '{owner[key]}' sets {key} too; no two lines may set the same parameter")
+        if trouble := refusal([assignment for way in ways for assignment in way]):
+            sys.exit(f"{path}:{number}: {trouble}")
         for i, way in enumerate(ways, 1):
             changes[f"{name}:{i}" if len(ways) > 1 else name] = way
     if not changes:
         sys.exit(f"{path}: no change in it")
     return changes
+
+
+def refusal(assignments, nonet):
+    """What the program says against parameters, before any game; None if it takes them."""
+    command = [nonet, "params"] + [word for assignment in assignments for word in ("--set", assignment)]
+    try:
+        output_of(command)
+    except (RuntimeError, OSError) as trouble:
+        return str(trouble).removeprefix("nonet: ")
+    return None
 
 
 def drawn(changes, pair, share):
@@ -196,9 +209,12 @@ def play_all(changes, settings, done):
                 with (settings.out / "pairs.jsonl").open("a") as file:
                     file.write(record + "\n")
                 print(f"{number} of {len(missing)} pairs", file=sys.stderr, flush=True)
-        except (RuntimeError, OSError, KeyboardInterrupt) as trouble:
+        except KeyboardInterrupt:
             stop.set()
-            sys.exit(f"stopped: {trouble or 'interrupted'}; the same command goes on")
+            sys.exit("stopped: interrupted; the same command goes on")
+        except (RuntimeError, OSError) as trouble:
+            stop.set()
+            sys.exit(f"stopped: {trouble}; once that is mended the same command goes on")
 
 
 def read_records(path):
@@ -328,6 +344,7 @@ def self_test():
     expected = {"against": 2, "on target": 6, "passes": 4, "falls": 8, "charging": 0, "possession": 60}
     assert values == expected, values
     test_fingerprint()
+    test_changes()
     print("screen: known effects found")
 
 
@@ -365,9 +382,25 @@ def test_fingerprint():
         os.environ["NONET_DATA"] = kept
 
 
+def test_changes():
+    """A line that cannot be used is named, also one that the program does not take."""
+    def read(text):
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+            file.write(text)
+            file.flush()
+            try:
+                return read_changes(file.name, lambda assignments: "unknown" if "b=1" in assignments else None)
+            except SystemExit as end:
+                return str(end).removeprefix(file.name)
+    assert read("# none\nx a=1 | a=2\ny c=1 d=2\n") == {"x:1": ["a=1"], "x:2": ["a=2"], "y": ["c=1", "d=2"]}
+    assert read("x a=1\n\ny c=1 | b=1\n") == ":3: unknown"
+    assert read("x a=1\ny a=2\n").startswith(":2: 'x' sets a too")
+    assert "/no/nonet" in refusal(["a=1"], "/no/nonet")
+
+
 def screen(settings):
-    changes = read_changes(settings.changes)
     settings.fingerprint = fingerprint(settings.nonet, settings.against)
+    changes = read_changes(settings.changes, lambda assignments: refusal(assignments, settings.nonet))
     plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
             "exact": settings.exact, "fingerprint": settings.fingerprint}
     if settings.scrums:

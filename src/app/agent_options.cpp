@@ -1,5 +1,7 @@
 #include "nonet/app/agent_options.h"
 
+#include "nonet/app/option_checks.h"
+
 namespace nonet::app {
 
 void addAgentOptions(CLI::App& command, agent::AgentChoice& choice, std::string& data) {
@@ -25,11 +27,11 @@ void addServerOptions(CLI::App& command, ServerChoice& server) {
   command.add_option("--host", server.address.host, "Its host")->capture_default_str()->needs(tcp);
   command.add_option("--port", server.address.port, "Its agent port")
       ->capture_default_str()
-      ->check(CLI::Range(1, 65535))
+      ->check(otherPort())
       ->needs(tcp);
   command.add_option("--monitor-port", server.address.monitorPort, "Its monitor port")
       ->capture_default_str()
-      ->check(CLI::Range(1, 65535))
+      ->check(otherPort())
       ->needs(tcp);
 }
 

@@ -12,6 +12,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/ball_report.h"
 
@@ -28,11 +29,19 @@ struct BallReportArguments {
   bool json = false;
 };
 
+bool hasOpponents(const std::string& skill) {
+  return skill == "all" || skill == "duel" || skill == "attack" || skill == "scrum" || skill == "loose";
+}
+
 int run(const BallReportArguments& arguments) {
   spdlog::set_level(spdlog::level::err);  // who enters the field is no news here
   lab::BallReportSettings settings = arguments.settings;
   if (!arguments.svg.empty() && settings.skill != "slalom" && settings.skill != "all")
     throw std::runtime_error("--svg draws the slalom only: leave it out, or choose --skill slalom or all");
+  if (!arguments.opponentData.empty() && !hasOpponents(settings.skill))
+    throw std::runtime_error(
+        "--opponent-data: only duel, attack, scrum and loose have opponents: leave it out, or choose one of "
+        "these or all");
   settings.seed = arguments.choice.seed;
   const std::string data = dataFolder(arguments.data);
   settings.agent = agent::makeAgentSettings(arguments.choice, data);
@@ -73,7 +82,7 @@ void addBallReportCommand(CLI::App& app, int& exitCode) {
                       "--data, without --set");
   command->add_option("--trials", settings.trials, "Trials of each skill")->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
-  command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
+  command->add_option("--threads", settings.threads, "Threads, 0 = all processors")->check(threadCount());
   command->add_flag("--quick", settings.quickSolver, "Quick stepper instead of the exact one");
   command->add_option(
       "--svg", arguments->svg,

@@ -20,8 +20,8 @@ std::string findThree(const std::string& executable, const std::string& systemFo
   return fs::is_directory(installed, ignored) ? installed.string() : systemFolder;
 }
 
-std::string dataFolder(const std::string& given) {
-  return agent::dataFolder(given, "--data", executablePath(), NONET_SOURCE_DIR);
+std::string dataFolder(const std::string& given, const std::string& option) {
+  return agent::dataFolder(given, option, executablePath(), NONET_SOURCE_DIR);
 }
 
 }  // namespace nonet::app

@@ -14,6 +14,7 @@
 #include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/env/env.h"
 #include "nonet/math/random.h"
 
@@ -60,6 +61,17 @@ void write(const void* data, std::size_t bytes) {
   if (std::fwrite(data, 1, bytes, stdout) != bytes) throw std::runtime_error("the reader has gone away");
 }
 
+// False at the end; within a batch nobody ends who means to.
+bool readActions(std::vector<float>& actions) {
+  const std::size_t bytes = actions.size() * sizeof(float);
+  const std::size_t read = std::fread(actions.data(), 1, bytes, stdin);
+  if (read == 0 || read == bytes) return read > 0;
+  throw std::runtime_error(
+      fmt::format("standard input: ended within a batch of actions, after {} of its {} bytes: expected {} "
+                  "32-bit floats a step",
+                  read, bytes, actions.size()));
+}
+
 // The header as a line of JSON, the first observations; then for every batch of actions observations, rewards
 // and ends. Numbers are 32-bit floats in the machine's order, ends are bytes.
 int serve(lab::EnvBatch& batch, const std::string& task) {
@@ -73,7 +85,7 @@ int serve(lab::EnvBatch& batch, const std::string& task) {
   write(batch.observation().data(), batch.observation().size_bytes());
   std::fflush(stdout);
   std::vector<float> actions(batch.size() * batch.actions());
-  while (std::fread(actions.data(), sizeof(float), actions.size(), stdin) == actions.size()) {
+  while (readActions(actions)) {
     batch.step(actions);
     write(batch.observation().data(), batch.observation().size_bytes());
     write(batch.rewards().data(), batch.rewards().size_bytes());
@@ -104,7 +116,7 @@ void addEnvCommand(CLI::App& app, int& exitCode) {
   command->add_option("task", arguments->task, "Name of the environment");
   command->add_flag("--list", arguments->list, "List the environments");
   command->add_option("--envs", arguments->count, "Environments in the batch")->check(CLI::Range(1, 10000));
-  command->add_option("--threads", arguments->threads, "Threads, 0 = all processors");
+  command->add_option("--threads", arguments->threads, "Threads, 0 = all processors")->check(threadCount());
   command->add_option("--seed", arguments->choice.seed, "Seed of all episodes");
   addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_flag("--quick", arguments->quick, "Quick stepper instead of the exact one");

@@ -47,13 +47,27 @@ std::string logOf(const ExplainArguments& arguments) {
   return found;
 }
 
+// Our own logs say who recorded them: nobody else can be explained from one.
+void checkRobot(const ExplainArguments& arguments, const std::string& log,
+                const protocol::LogHeader& header) {
+  if (arguments.unum.value_or(header.unum) == header.unum &&
+      arguments.team.value_or(header.team) == header.team)
+    return;
+  throw std::runtime_error(
+      fmt::format("{} is the log of {} {}: leave --unum and --team out, or give the folder", log, header.team,
+                  header.unum));
+}
+
 int runExplain(const ExplainArguments& arguments) {
   const std::string log = logOf(arguments);
   nlohmann::ordered_json moment;
   double nearest = std::numeric_limits<double>::infinity();
   lab::ReplaySettings settings;
   settings.dataFolder = dataFolder(arguments.data);
-  if (!protocol::LogReader(log).header()) {  // our own logs say who recorded them
+  const protocol::LogReader reader(log);
+  if (reader.header()) {
+    checkRobot(arguments, log, *reader.header());
+  } else {
     settings.unum = arguments.unum;
     settings.team = arguments.team;
   }
@@ -64,8 +78,9 @@ int runExplain(const ExplainArguments& arguments) {
     nearest = distance;
     moment = agent::traceOf(session.agent());
   };
-  lab::replay(log, settings);
-  if (moment.is_null()) throw std::runtime_error(log + ": no messages in it");
+  const std::string problem = lab::replay(log, settings).problem;
+  if (moment.is_null()) throw std::runtime_error(problem.empty() ? log + ": no messages in it" : problem);
+  if (!problem.empty()) fmt::print(stderr, "nonet explain: {}\n", problem);
   if (nearest > 1.0) {
     throw std::runtime_error(fmt::format("{}: nothing at {:.2f} s of the game, the nearest is {:.2f} s", log,
                                          arguments.at, moment["game_time"].get<double>()));

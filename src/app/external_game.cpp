@@ -19,6 +19,7 @@ using Clock = std::chrono::steady_clock;
 using protocol::PlayMode;
 
 constexpr double kLongestStart = 90.0;    // s until the server, then each team, must be there
+constexpr double kUsualStart = 5.0;       // s that a server of --server-command takes
 constexpr double kLongestSilence = 30.0;  // s without a message of the server
 constexpr double kFarewell = 3.0;         // s for the field to become empty
 
@@ -29,10 +30,11 @@ double secondsSince(Clock::time_point time) {
 // The monitor port, read message by message.
 class MonitorLink {
  public:
-  // Tries until somebody listens or the time is over.
-  MonitorLink(const ServerPlace& server, const std::function<bool()>& goOn) {
+  // Tries until somebody listens or the time is over. What it waits for it says after `patience` seconds.
+  MonitorLink(const ServerPlace& server, double patience, const SayLine& say,
+              const std::function<bool()>& goOn) {
     const auto start = Clock::now();
-    for (;;) {
+    for (bool said = false;;) {
       std::error_code error;
       tcp::resolver resolver(io_);
       const auto endpoints = resolver.resolve(server.host, std::to_string(server.monitorPort), error);
@@ -42,6 +44,11 @@ class MonitorLink {
       if (secondsSince(start) > kLongestStart)
         throw std::runtime_error(fmt::format("no server at {}, monitor port {}: {}", server.host,
                                              server.monitorPort, error.message()));
+      if (!said && secondsSince(start) >= patience) {
+        said = true;
+        say(fmt::format("waiting up to {:.0f} s for a server at {}, monitor port {} ({})", kLongestStart,
+                        server.host, server.monitorPort, error.message()));
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
   }
@@ -97,14 +104,15 @@ class MonitorLink {
 class ExternalGame {
  public:
   ExternalGame(const ServerPlace& server, const lab::SeriesSettings& settings, const lab::SeriesGame& game,
-               lab::MatchSettings& match, SideAgents& agents, const std::function<bool(double)>& goOn)
+               lab::MatchSettings& match, SideAgents& agents, const std::function<bool(double)>& goOn,
+               const SayLine& say)
       : server_(server),
         settings_(settings),
         game_(game),
         match_(match),
         agents_(agents),
         goOn_(goOn),
-        link_(server, [&] { return goOn(0.0); }) {}
+        link_(server, settings.serverCommand.empty() ? 0.0 : kUsualStart, say, [&] { return goOn(0.0); }) {}
 
   lab::GameRecord play() {
     follow();
@@ -222,7 +230,8 @@ class ExternalGame {
 
 lab::GameRecord playOnServer(const lab::SeriesSettings& settings, const lab::SeriesGame& game,
                              lab::MatchSettings& match, SideAgents& agents,
-                             const std::function<bool(double)>& goOn, const std::string& logs) {
+                             const std::function<bool(double)>& goOn, const std::string& logs,
+                             const SayLine& say) {
   const ServerPlace server = serverPlace(settings.place).value();
   AgentProcesses processes;
   if (!settings.serverCommand.empty()) {
@@ -234,7 +243,7 @@ lab::GameRecord playOnServer(const lab::SeriesSettings& settings, const lab::Ser
                                           {"half", fmt::format("{}", 30.0 * settings.minutes)}}),
         logs + "/server.txt");
   }
-  lab::GameRecord record = ExternalGame(server, settings, game, match, agents, goOn).play();
+  lab::GameRecord record = ExternalGame(server, settings, game, match, agents, goOn, say).play();
   processes.stop(0.0);
   return record;
 }

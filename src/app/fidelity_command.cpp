@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "nonet/app/commands.h"
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/folder_lock.h"
 #include "nonet/sim/fidelity/fidelity.h"
 
 namespace nonet::app {
@@ -52,29 +54,42 @@ nlohmann::ordered_json toJson(const sim::FidelityResult& result) {
           {"max_joint_error_deg", result.worst.joints}};
 }
 
+void printHead() {
+  fmt::print("{:<22} {:>6}  {:>9} {:>9} {:>9}  {:>9} {:>8} {:>8} {:>8} {:>8}\n", "scenario", "cycles",
+             ">0.1 mm", ">1 mm", ">1 cm", "position", "joints", "gyro", "acc", "force");
+}
+
+void printRow(const sim::FidelityResult& result) {
+  const sim::CycleError& worst = result.worst;
+  fmt::print(
+      "{:<22} {:>6}  {:>9} {:>9} {:>9}  {:>7.1e} m {:>5.2f} deg {:>4.2f} deg/s {:>4.2f} m/s2 {:>4.2f} "
+      "N{}\n",
+      result.scenario, result.cycles.size(), timeOrNever(result.firstOver[0]),
+      timeOrNever(result.firstOver[1]), timeOrNever(result.firstOver[2]), worst.position(), worst.joints,
+      worst.gyro, worst.accelerometer, worst.footForce,
+      result.knownHistory ? "" : "  (start taken from the recording)");
+}
+
+void draw(const std::vector<sim::FidelityResult>& results, const std::filesystem::path& folder) {
+  for (const sim::FidelityResult& result : results)
+    lab::writeAtomically(folder / (result.scenario + ".svg"), sim::drawFidelity(result));
+}
+
 int runFidelity(FidelityArguments& arguments) {
   arguments.settings.solver =
       arguments.solver == "quick" ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
-  if (!arguments.svgFolder.empty()) std::filesystem::create_directories(arguments.svgFolder);
-  fmt::print("{:<22} {:>6}  {:>9} {:>9} {:>9}  {:>9} {:>8} {:>8} {:>8} {:>8}\n", "scenario", "cycles",
-             ">0.1 mm", ">1 mm", ">1 cm", "position", "joints", "gyro", "acc", "force");
+  if (!arguments.svgFolder.empty()) lab::makeFolder(arguments.svgFolder.string());
+  printHead();
+  std::vector<sim::FidelityResult> results;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const auto& file : recordingsIn(arguments.folder)) {
-    const sim::FidelityResult result = sim::replay(sim::readRecording(file), arguments.settings);
-    const sim::CycleError& worst = result.worst;
-    fmt::print(
-        "{:<22} {:>6}  {:>9} {:>9} {:>9}  {:>7.1e} m {:>5.2f} deg {:>4.2f} deg/s {:>4.2f} m/s2 {:>4.2f} "
-        "N{}\n",
-        result.scenario, result.cycles.size(), timeOrNever(result.firstOver[0]),
-        timeOrNever(result.firstOver[1]), timeOrNever(result.firstOver[2]), worst.position(), worst.joints,
-        worst.gyro, worst.accelerometer, worst.footForce,
-        result.knownHistory ? "" : "  (start taken from the recording)");
-    all.push_back(toJson(result));
-    if (!arguments.svgFolder.empty()) {
-      lab::writeAtomically(arguments.svgFolder / (result.scenario + ".svg"), sim::drawFidelity(result));
-    }
+    results.push_back(sim::replay(sim::readRecording(file), arguments.settings));
+    printRow(results.back());
+    all.push_back(toJson(results.back()));
   }
+  // Last, so that nothing is lost by a file that cannot be written.
   if (!arguments.jsonFile.empty()) lab::writeAtomically(arguments.jsonFile, all.dump(2) + "\n");
+  if (!arguments.svgFolder.empty()) draw(results, arguments.svgFolder);
   return 0;
 }
 

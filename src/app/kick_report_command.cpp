@@ -1,5 +1,6 @@
 // nonet kick-report: how far, how straight and how soon the robot kicks.
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/kick_report.h"
 
@@ -29,6 +31,8 @@ struct KickReportArguments {
 int run(const KickReportArguments& arguments) {
   spdlog::set_level(spdlog::level::warn);  // who enters the field is no news here
   lab::KickReportSettings settings = arguments.settings;
+  if (settings.stops && settings.kick != "any")
+    throw std::runtime_error("--stop is for the kick that motion chooses: leave it out, or give --kick any");
   settings.seed = arguments.choice.seed;
   settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
   settings.server = arguments.server.chosen();
@@ -65,9 +69,10 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(0.0, 3.0));
   command->add_option("--distance", settings.distance, "How far the ball should go, m")
       ->check(CLI::Range(0.5, 25.0));
-  command->add_flag("--stop", settings.stops, "It should come to rest there: motion chooses as for a pass");
+  command->add_flag("--stop", settings.stops,
+                    "With --kick any: it should come to rest there, motion chooses as for a pass");
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
-  command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
+  command->add_option("--threads", settings.threads, "Threads, 0 = all processors")->check(threadCount());
   addServerOptions(*command, arguments->server);
   command->add_option("--svg", arguments->svg, "Draw the balls' ways: SVG + name of the kick + .svg");
   command->add_flag("--json", arguments->json, "Print JSON");

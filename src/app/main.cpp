@@ -1,7 +1,9 @@
 #include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -18,6 +20,7 @@ namespace {
 
 // Every wrong command line ends with this, whatever was wrong with it.
 constexpr int kWrongUse = 1;
+constexpr int kFailed = 1;
 
 void checkCommand(const CLI::App& app, const std::string& given) {
   std::vector<std::string> names;
@@ -95,13 +98,26 @@ int run(int argc, char** argv) {
   return exitCode;
 }
 
+void complain(const std::string& what) {
+  std::fputs(fmt::format("nonet: {}\n", what).c_str(), stderr);  // throws nothing on a full disk
+}
+
+/// What is short waits in a buffer until the end: only now a full disk shows.
+int exitCodeAfterOutput(int exitCode) {
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && std::ferror(stdout) == 0) return exitCode;
+  complain(fmt::format("the standard output is not complete, it cannot be written{}",
+                       flushed ? "" : fmt::format(": {}", std::strerror(errno))));
+  return exitCode == 0 ? kFailed : exitCode;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return exitCodeAfterOutput(run(argc, argv));
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("nonet: {}\n", error.what()).c_str(), stderr);  // throws nothing on a full disk
-    return 1;
+    complain(error.what());
+    return kFailed;
   }
 }

@@ -11,11 +11,13 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/app/roboviz.h"
 #include "nonet/app/stop_signal.h"
 #include "nonet/app/tcp_match.h"
 #include "nonet/app/team_name.h"
 #include "nonet/app/trace_file.h"
+#include "nonet/lab/common/folder_lock.h"
 #include "nonet/lab/reports/match_agreement.h"
 #include "nonet/lab/reports/match_kicks.h"
 #include "nonet/lab/reports/match_localization.h"
@@ -39,6 +41,8 @@ struct MatchArguments {
   std::string data;
 };
 
+using Traces = std::map<sim::AgentHandle, std::unique_ptr<TraceFile>>;
+
 void addTrace(const std::string& folder, const lab::Thought& thought, std::unique_ptr<TraceFile>& file) {
   if (!file) {
     const agent::AgentSettings& agentSettings = thought.agent.settings();
@@ -46,6 +50,13 @@ void addTrace(const std::string& folder, const lab::Thought& thought, std::uniqu
         fmt::format("{}/{}_{}.trace", folder, agentSettings.team, agentSettings.unum));
   }
   file->add(thought.agent);
+}
+
+void endTraces(const Traces& traces, lab::MatchResult& result) {
+  for (const auto& [agent, trace] : traces) {
+    trace->close();
+    if (!trace->error().empty()) result.warnings.push_back(trace->error());
+  }
 }
 
 void draw(const lab::Thought& thought, std::unique_ptr<RobovizPainter>& painter) {
@@ -82,7 +93,7 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console, con
     for (const Measurement& measurement : measured) measurement.measure->afterCycle(simulation);
     return !StopSignal::came();
   };
-  std::map<sim::AgentHandle, std::unique_ptr<TraceFile>> traces;
+  Traces traces;
   std::map<sim::AgentHandle, std::unique_ptr<RobovizPainter>> painters;
   const TcpMatchSettings& settings = arguments.settings;
   if (!measured.empty() || settings.draw || !settings.traces.empty()) {
@@ -93,6 +104,7 @@ lab::MatchResult playHere(const MatchArguments& arguments, Console& console, con
     };
   }
   lab::MatchResult result = lab::playInProcess(match, dataFolder(arguments.data), threads, observers);
+  endTraces(traces, result);
   console.end();
   if (!result.finished) console.say("stopped by a signal");
   return result;
@@ -118,8 +130,10 @@ void checkBefore(MatchArguments& arguments) {
   for (const std::string& name : {match.left.name, match.right.name}) checkTeamName(name);
   for (lab::TeamSettings* team : {&match.left, &match.right}) {
     if (team->players > 0) lab::checkRobotTypes(team->robotTypes, team->players);
+    const char* own = team == &match.left ? "--left-data" : "--right-data";
+    const std::string option = team->dataFolder.empty() ? "--data" : own;
     if (team->dataFolder.empty()) team->dataFolder = arguments.data;
-    const std::string data = dataFolder(team->dataFolder);
+    const std::string data = dataFolder(team->dataFolder, option);
     std::set<int> types;
     for (int unum = 1; unum <= team->players; ++unum) {
       const agent::AgentChoice choice = lab::agentChoice(match, team == &match.right, unum);
@@ -127,7 +141,7 @@ void checkBefore(MatchArguments& arguments) {
     }
   }
   const std::filesystem::path folder = std::filesystem::path(arguments.json).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder);
+  if (!folder.empty()) lab::makeFolder(folder.string());
   if (!std::ofstream(arguments.json))  // and no result of an earlier match remains
     throw std::runtime_error(
         fmt::format("--json {}: cannot be written: give the name of a file", arguments.json));
@@ -142,7 +156,7 @@ int runMatch(MatchArguments& arguments) {
   assign(arguments.assignments, match);
   checkBefore(arguments);
 
-  if (!arguments.settings.traces.empty()) std::filesystem::create_directories(arguments.settings.traces);
+  if (!arguments.settings.traces.empty()) lab::makeFolder(arguments.settings.traces);
 
   Console console;
   const Measurements measured = askedFor(arguments);
@@ -158,7 +172,7 @@ int runMatch(MatchArguments& arguments) {
   fmt::print("result in {}\n", arguments.json);
   const bool allThere = std::all_of(result.players.begin(), result.players.end(),
                                     [](const lab::PlayerRecord& player) { return player.connected; });
-  return result.finished && result.violations == 0 && allThere ? 0 : 1;
+  return result.finished && result.violations == 0 && result.warnings.empty() && allThere ? 0 : 1;
 }
 
 void addGameOptions(CLI::App* command, MatchArguments& arguments) {
@@ -182,19 +196,23 @@ void addTeamOptions(CLI::App* command, MatchArguments& arguments) {
   command->add_option("--right", match.right.name, "Name of the right team")->capture_default_str();
   command->add_option("--left-params", match.left.parameterFiles, "Parameter files of the left team")
       ->check(CLI::ExistingFile);
+  CLI::Option* alone = command->get_option("--alone");  // of a team that stays away nothing is asked
   command->add_option("--right-params", match.right.parameterFiles, "Parameter files of the right team")
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingFile)
+      ->excludes(alone);
   command->add_option("--left-data", match.left.dataFolder, "Folder with the left team's params/ and skills/")
       ->check(CLI::ExistingDirectory);
   command
       ->add_option("--right-data", match.right.dataFolder, "The same of the right team: an older state, say")
-      ->check(CLI::ExistingDirectory);
+      ->check(CLI::ExistingDirectory)
+      ->excludes(alone);
   command
       ->add_option("--left-set", match.left.assignments,
                    "One parameter of the left team's agents, name=value")
       ->allow_extra_args(false);
   command->add_option("--right-set", match.right.assignments, "The same of the right team's")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->excludes(alone);
   command
       ->add_option("--left-types", match.left.robotTypes,
                    "Robot types of the left team from number 1 on, such as 0,2,2,2,2,2,2,2,4")
@@ -202,16 +220,20 @@ void addTeamOptions(CLI::App* command, MatchArguments& arguments) {
       ->check(CLI::Range(0, 4));
   command->add_option("--right-types", match.right.robotTypes, "The same of the right team")
       ->delimiter(',')
-      ->check(CLI::Range(0, 4));
+      ->check(CLI::Range(0, 4))
+      ->excludes(alone);
   command->add_option("--data", arguments.data, "Folder with params/ and skills/ for both teams")
       ->check(CLI::ExistingDirectory);
 }
 
 void addServerOptions(CLI::App* command, MatchArguments& arguments) {
   TcpMatchSettings& settings = arguments.settings;
-  command->add_option("--port", settings.port, "Port for agents, 0: any free one")->capture_default_str();
+  command->add_option("--port", settings.port, "Port for agents, 0: any free one")
+      ->capture_default_str()
+      ->check(ownPort());
   command->add_option("--monitor-port", settings.monitorPort, "Port for monitors, 0: any free one")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(ownPort());
   command
       ->add_option("--answer-timeout", settings.answerTimeout,
                    "Lock-step: seconds after which a silent agent is no longer waited for")
@@ -279,7 +301,7 @@ void addWayOfPlaying(CLI::App* command, MatchArguments& arguments) {
       ->add_option("--threads", arguments.threads,
                    "With --in-process: threads for agents and physics, 0: one per core")
       ->capture_default_str()
-      ->check(CLI::Range(0, 256))
+      ->check(threadCount())
       ->needs(inProcess);
 }
 
@@ -301,7 +323,7 @@ void addMatchCommand(CLI::App& app, int& exitCode) {
       "  nonet match --alone --set QuickSolver=true --set team.ball.kick=false\n"
       "In lock-step the same seed gives the same match, over TCP and in one process, to the last byte of the "
       "logs.\n"
-      "Exit codes: 0 played to the end, 1 not, or --check found something.");
+      "Exit codes: 0 played to the end, 1 not, or --check found something, or a recording is not whole.");
   command->callback([arguments, &exitCode] { exitCode = runMatch(*arguments); });
 }
 

@@ -2,12 +2,14 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
 
 #include <fmt/chrono.h>
@@ -19,6 +21,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/app/stop_signal.h"
 #include "nonet/app/version.h"
 #include "nonet/config/parameters.h"
@@ -216,13 +219,33 @@ class Progress {
   std::int64_t lastTrials_ = 0;
 };
 
+/// Says at once that a signal has come, for a generation may take minutes to its end.
+class StopNotice {
+ private:
+  static void watch(const std::stop_token& over) {
+    while (!StopSignal::came()) {
+      if (over.stop_requested()) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    // Throws nothing, in a thread of its own, where the output finds no room.
+    std::fputs("stopping: the generation under way is finished first; a second signal ends at once\n",
+               stdout);
+    std::fflush(stdout);
+  }
+
+  std::jthread thread_{[](const std::stop_token& over) { watch(over); }};
+};
+
 /// Exit code. A signal ends the search after the generation that it came in: all is in the folder.
 int optimize(lab::OptimizationRun& run, lab::Evaluator& evaluator, const std::string& folder) {
   const StopSignal stopSignal;
   Progress progress(folder, run.settings().generations);
   progress.startFrom(run.trials());
   lab::GenerationReport report;
-  while (!StopSignal::came() && run.step(evaluator, report)) progress.show(report, evaluator.workers());
+  {
+    const StopNotice notice;
+    while (!StopSignal::came() && run.step(evaluator, report)) progress.show(report, evaluator.workers());
+  }
   const bool stopped = StopSignal::came();
   if (stopped) fmt::print("stopped by a signal after generation {}; --resume goes on\n", run.generation());
   fmt::print("best parameters: {}/best.toml\n", folder);
@@ -351,13 +374,13 @@ void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
   command.add_option("--sigma", settings.sigma, "First step size as a share of the search ranges")
       ->capture_default_str();
   command.add_option("--trials", settings.trials, "Seeds per candidate, the same for all of a generation")
-      ->check(CLI::PositiveNumber)
+      ->check(moreThanZero())
       ->capture_default_str();
   command.add_option("--validation-every", settings.validationEvery, "Generations between validations")
-      ->check(CLI::PositiveNumber)
+      ->check(moreThanZero())
       ->capture_default_str();
   command.add_option("--validation-trials", settings.validationTrials, "Fresh seeds per validation")
-      ->check(CLI::PositiveNumber)
+      ->check(moreThanZero())
       ->capture_default_str();
   command.add_flag("--quick", settings.quickSolver,
                    "Quick physics: the same equations, five times faster, not to the last bit");
@@ -384,7 +407,7 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
   addSearchOptions(*command, *arguments);
   arguments->command = command;
   command->add_option("--threads", arguments->threads, "Evaluations at once; 0: one per core")
-      ->check(CLI::Range(0, 256));
+      ->check(threadCount());
   command->add_flag("--mpi", arguments->mpi, "Evaluate on all ranks of this MPI job (under mpirun or srun)");
   CLI::Option* resume =
       command->add_flag("--resume", arguments->resume, "Continue the run in --out after a kill at any point");

@@ -12,6 +12,8 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <asio.hpp>
 #include <fmt/format.h>
@@ -87,10 +89,7 @@ class PlayClient {
     });
     asio::post(io_, [this] { begin(); });
     io_.run();
-    if (log_) {
-      log_->close();
-      watchLog();
-    }
+    endRecordings();
     if (link_) add(link_->session.counts());
     report();
     // Last, since who watches many agents quotes the last line of each.
@@ -262,10 +261,13 @@ class PlayClient {
     }
     if (log_) {
       log_->received(message);
-      watchLog();
+      warn(log_->error());
     }
     connection.session.receive(message);
-    if (trace_) trace_->add(connection.session.agent());
+    if (trace_) {
+      trace_->add(connection.session.agent());
+      warn(trace_->error());
+    }
     if (painter_) painter_->show(connection.session.agent());
     watchStage(connection);
   }
@@ -356,7 +358,7 @@ class PlayClient {
     counts_.unknownTokens += counts.unknownTokens;
   }
 
-  // -- the log
+  // -- recordings
 
   void openLog(const std::string& path) {
     log_ = std::make_unique<protocol::LogWriter>(path, settings_.recordHeader);
@@ -371,24 +373,34 @@ class PlayClient {
     ++lives_;
     if (!log_) return;
     log_->close();
-    watchLog();
+    warn(log_->error());
     const std::filesystem::path first(settings_.record);
     const std::string name =
         fmt::format("{}.{}{}", first.stem().string(), lives_, first.extension().string());
     try {
       openLog((first.parent_path() / name).string());
-      toldOfLog_ = false;
     } catch (const protocol::LogError& error) {
       log_.reset();
-      complain(fmt::format("{}; it goes on without a log", error.what()));
+      warn(fmt::format("{}; it goes on without a log", error.what()));
     }
   }
 
-  /// A full disk does not end a match, but is said when it happens.
-  void watchLog() {
-    if (!log_->failed() || toldOfLog_) return;
-    toldOfLog_ = true;
-    complain(log_->error());
+  /// A full disk does not end a match, but is said when it happens, once, and stands in the report.
+  void warn(const std::string& error) {
+    if (error.empty() || std::find(warnings_.begin(), warnings_.end(), error) != warnings_.end()) return;
+    warnings_.push_back(error);
+    complain(error);
+  }
+
+  void endRecordings() {
+    if (log_) {
+      log_->close();
+      warn(log_->error());
+    }
+    if (trace_) {
+      trace_->close();
+      warn(trace_->error());
+    }
   }
 
   // -- ending
@@ -415,7 +427,8 @@ class PlayClient {
                                  {"passed_over", counts.passedOver},
                                  {"lost_cycles", counts.lostCycles},
                                  {"unknown", counts.unknownTokens},
-                                 {"connections", lives_}};
+                                 {"connections", lives_},
+                                 {"warnings", warnings_}};
     report_ << json.dump() << "\n";
     if (!report_.flush()) complain(cannotWriteReport());
   }
@@ -424,10 +437,11 @@ class PlayClient {
     return fmt::format("--report {}: cannot be written ({})", settings_.report, std::strerror(errno));
   }
 
-  // The disk that the output goes to may be full: that must not end a match.
+  // The disk that the output goes to may be full: that must not end a match, nor decide its exit code.
   static void write(std::FILE* stream, const std::string& line) {
     std::fputs((line + "\n").c_str(), stream);
     std::fflush(stream);
+    std::clearerr(stream);
   }
 
   static void complain(const std::string& message) { write(stderr, "nonet play: " + message); }
@@ -461,7 +475,7 @@ class PlayClient {
   std::string trouble_ = "no answer";  // why the last attempt to connect failed
   double nextPause_ = kFirstPause;
   double reconnectAfter_ = kSilenceBeforeReconnect;
-  bool toldOfLog_ = false;
+  std::vector<std::string> warnings_;  // of recordings that are not whole
   bool finished_ = false;
   PlayExit exit_ = PlayExit::Stopped;
   std::string ending_;  // why it ended

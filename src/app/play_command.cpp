@@ -3,6 +3,7 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/app/play_client.h"
 #include "nonet/app/team_name.h"
 
@@ -59,9 +60,7 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   agent::AgentChoice& choice = arguments->choice;
   PlaySettings& play = arguments->play;
   command->add_option("--host", play.host, "Host of the server")->capture_default_str();
-  command->add_option("--port", play.port, "Port for agents")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 65535));
+  command->add_option("--port", play.port, "Port for agents")->capture_default_str()->check(otherPort());
   command->add_option("--unum", choice.unum, "Uniform number, 0: the server chooses")
       ->capture_default_str()
       ->check(CLI::Range(0, 11));
@@ -69,9 +68,10 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--type", choice.robotType, "Robot type")
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
-  command->add_flag("--draw", arguments->draw,
-                    "Draw what the agent believes and wants on RoboViz (UDP port 32769)");
+  CLI::Option* draw = command->add_flag("--draw", arguments->draw,
+                                        "Draw what the agent believes and wants on RoboViz (UDP port 32769)");
   command->add_option("--draw-host", arguments->drawHost, "With --draw: where RoboViz runs")
+      ->needs(draw)
       ->capture_default_str();
   command->add_option("--trace", play.trace,
                       "Write what the agent believes and wants in each cycle (JSON lines, zstd)");
@@ -93,7 +93,7 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--seed", choice.seed, "Seed of the agent's random numbers")->capture_default_str();
   command->add_option("--wait", play.wait, "Seconds to wait for a server, and for its first message")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(moreThanZero());
   command->add_flag("--reconnect", play.reconnect,
                     "Come back to a server that is started again, or after a cut connection; give up after "
                     "--wait seconds. Each connection has its own log: 3.zst, 3.2.zst, ...");

@@ -10,6 +10,7 @@
 #include "nonet/agent/trace.h"
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/lab/common/folder_lock.h"
 #include "nonet/lab/reports/localization_report.h"
 #include "nonet/lab/reports/replay.h"
 #include "nonet/protocol/log_file.h"
@@ -48,7 +49,7 @@ std::string freeMap(const std::string& log, ReplayArguments& arguments) {
 
 std::string writeMap(const lab::LocalizationReport& report, const std::string& log,
                      ReplayArguments& arguments) {
-  std::filesystem::create_directories(arguments.maps);
+  lab::makeFolder(arguments.maps);
   std::string path = freeMap(log, arguments);
   std::ofstream file(path);
   file << report.toSvg();

@@ -8,6 +8,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/reports/rise_report.h"
 
 namespace nonet::app {
@@ -43,7 +44,8 @@ void addRiseReportCommand(CLI::App& app, int& exitCode) {
   command->add_option("--falls", arguments->settings.falls, "Falls of each kind")
       ->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all falls");
-  command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
+  command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors")
+      ->check(threadCount());
   command->add_flag("--json", arguments->json, "Print JSON");
   command->footer(
       "Examples:\n  nonet rise-report --type 3\n  nonet rise-report --params my.toml --falls 20 --json");

@@ -10,6 +10,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/save_report.h"
 
@@ -55,7 +56,7 @@ void addSaveReportCommand(CLI::App& app, int& exitCode) {
                    "Instead: so many rounds of the same twelve shots, drawn from the seed")
       ->check(CLI::Range(1, 10000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all shots");
-  command->add_option("--threads", settings.threads, "Threads, 0 = all processors");
+  command->add_option("--threads", settings.threads, "Threads, 0 = all processors")->check(threadCount());
   command->add_flag("--quick", settings.quickSolver, "Physics: the quick solver");
   command->add_option("--svg", arguments->svg, "Draw the shots into this file");
   command->add_flag("--json", arguments->json, "Print JSON");

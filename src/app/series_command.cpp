@@ -157,7 +157,8 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(1, 11));
   command->add_option("--kick-off-wait", settings.kickOffWait, "Simulated seconds before each half")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e4));
   command->add_option(
       "--sprt", arguments->sequential,
       "D0,D1: stop as soon as a sequential test tells a true goal difference per ten minutes of "

@@ -1,7 +1,6 @@
 #include "nonet/app/series_games.h"
 
 #include <atomic>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/match/frame_sources.h"
 #include "nonet/sim/server/server.h"
 
@@ -131,13 +131,6 @@ class TcpGame {
   std::atomic<bool> begun_{false};
 };
 
-std::uint16_t portFrom(std::string_view text) {
-  int port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && port > 0 && port < 65536 ? static_cast<std::uint16_t>(port) : 0;
-}
-
 }  // namespace
 
 std::optional<ServerPlace> serverPlace(const std::string& place) {
@@ -148,8 +141,8 @@ std::optional<ServerPlace> serverPlace(const std::string& place) {
   const bool two = middle != std::string::npos && middle > 0 && middle < last;
   if (two && place.find(':') == middle) {
     server.host = place.substr(0, middle);
-    server.port = portFrom(std::string_view(place).substr(middle + 1, last - middle - 1));
-    server.monitorPort = portFrom(std::string_view(place).substr(last + 1));
+    server.port = portFrom(std::string_view(place).substr(middle + 1, last - middle - 1)).value_or(0);
+    server.monitorPort = portFrom(std::string_view(place).substr(last + 1)).value_or(0);
   }
   if (server.port == 0 || server.monitorPort == 0)
     throw std::runtime_error(fmt::format(
@@ -159,10 +152,10 @@ std::optional<ServerPlace> serverPlace(const std::string& place) {
 }
 
 lab::PlayGame gamesOfProcesses(const lab::SeriesSettings& settings, const std::string& folder,
-                               const std::string& dataFolder) {
+                               const std::string& dataFolder, const SayLine& say) {
   const auto programs = std::make_shared<SideAgents::Programs>(settings);
-  return [settings, folder, dataFolder, programs](const lab::SeriesGame& game,
-                                                  const std::function<bool(double)>& goOn) {
+  return [settings, folder, dataFolder, programs, say](const lab::SeriesGame& game,
+                                                       const std::function<bool(double)>& goOn) {
     const auto start = Clock::now();
     lab::MatchSettings match = lab::matchOf(settings, game, folder);
     const std::string logs =
@@ -170,7 +163,7 @@ lab::PlayGame gamesOfProcesses(const lab::SeriesSettings& settings, const std::s
     fs::create_directories(logs);
     SideAgents agents(settings, game, *programs, match, dataFolder, logs);
     lab::GameRecord record = serverPlace(settings.place)
-                                 ? playOnServer(settings, game, match, agents, goOn, logs)
+                                 ? playOnServer(settings, game, match, agents, goOn, logs, say)
                                  : TcpGame(game, match, settings.place != "realtime", agents, goOn).play();
     agents.addTo(record);
     record.times["wall_time_s"] = std::chrono::duration<double>(Clock::now() - start).count();

@@ -34,9 +34,11 @@ SeriesRun playSeries(lab::SeriesSettings settings, const std::string& folder, in
                           atOnce, folder));
   if (series.played() > 0) console.say(fmt::format("resumed: {} games are there", series.played()));
   const StopSignal stopSignal;
-  const lab::PlayGame play = settings.place == "process"
-                                 ? lab::inProcessGames(series.settings(), folder, dataFolder)
-                                 : gamesOfProcesses(series.settings(), folder, dataFolder);
+  const lab::PlayGame play =
+      settings.place == "process"
+          ? lab::inProcessGames(series.settings(), folder, dataFolder)
+          : gamesOfProcesses(series.settings(), folder, dataFolder,
+                             [&console](const std::string& line) { console.say(line); });
   run.complete = lab::playSeries(series, atOnce, lab::unlessChanged(series.settings(), dataFolder, play),
                                  [&](const lab::SeriesProgress& progress) {
                                    if (console.due())

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/app/commands.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/app/team_name.h"
 #include "nonet/sim/server/server.h"
 
@@ -38,7 +39,8 @@ constexpr const char* kExamples = R"(Examples:
   nonet serve --sync --players 18 --left Nonet   a reproducible match in lock-step
   nonet serve --sync --truth --no-noise          for experiments with one robot
   nonet serve --set RuleHalfTime=60 --set AutomaticKickOff=true
-  nonet serve --settings match.toml              lines like: RuleHalfTime = 60)";
+  nonet serve --settings match.toml              lines like: RuleHalfTime = 60
+Exit codes: 0 ended as asked, 1 an error, or the file of --record-monitor is not whole.)";
 
 sim::Settings settingsFrom(const ServeArguments& arguments) {
   sim::Settings settings;
@@ -84,7 +86,7 @@ int runServe(ServeArguments& arguments) {
   spdlog::info("server: ended at {:.2f} s of the game, {} {} : {} {}", match.time,
                match.teamLeft.empty() ? "left" : std::string_view(match.teamLeft), match.scoreLeft,
                match.scoreRight, match.teamRight.empty() ? "right" : std::string_view(match.teamRight));
-  return 0;
+  return server.recordingError().empty() ? 0 : 1;
 }
 
 }  // namespace
@@ -95,10 +97,12 @@ void addServeCommand(CLI::App& app, int& exitCode) {
   ServeArguments& a = *arguments;
   command->footer(kExamples);
   command->add_option("--port", a.server.agentPort, "Port for agents, 0: any free one")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(ownPort());
   command
       ->add_option("--monitor-port", a.server.monitorPort, "Port for monitors and trainers, 0: any free one")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(ownPort());
   command
       ->add_option("--bind", a.server.address,
                    "Address to listen on; 0.0.0.0: all, so that others can connect")
@@ -121,7 +125,7 @@ void addServeCommand(CLI::App& app, int& exitCode) {
       ->add_option("--answer-timeout", a.server.answerTimeout,
                    "Lock-step: seconds after which an agent that does not answer is no longer waited for")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(moreThanZero());
   command
       ->add_option(
           "--players", a.server.players,

@@ -94,6 +94,10 @@ int run(const SkillPlayArguments& arguments) {
     lab::writeAtomically(arguments.plot, lab::skillReportSvg(trial, settings));
     fmt::print(stderr, "{}\n", arguments.plot);
   }
+  if (!trial.recordingError.empty()) {
+    fmt::print(stderr, "nonet skill play: {}\n", trial.recordingError);
+    return 1;
+  }
   if (!settings.monitorLog.empty()) fmt::print(stderr, "{0}: nonet view {0}\n", settings.monitorLog);
   return 0;
 }
@@ -115,7 +119,8 @@ void addSkillPlayCommand(CLI::App& skillCommand, int& exitCode) {
           "--ball", arguments->ball,
           "Put the ball there, X,Y: metres ahead and to the left of the torso; a kick has its own place")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(CLI::Range(-50.0, 50.0));
   command
       ->add_option(
           "--seconds", settings.seconds,

@@ -1,5 +1,4 @@
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -9,10 +8,12 @@
 
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/app/soak/fault_soak.h"
 #include "nonet/app/soak/match_soak.h"
 #include "nonet/app/stop_signal.h"
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/folder_lock.h"
 #include "nonet/lab/match/random_effectors.h"
 
 namespace nonet::app {
@@ -112,7 +113,7 @@ int runSoak(SoakArguments& arguments) {
     arguments.matches.players = arguments.faults.players = arguments.effectors.players = arguments.players;
   Console console(arguments.json ? stderr : stdout);
   if (arguments.effectorMinutes > 0.0) return runEffectors(arguments, console);
-  std::filesystem::create_directories(arguments.out);
+  lab::makeFolder(arguments.out);
   return arguments.harm ? runFaults(arguments, console) : runMatches(arguments, console);
 }
 
@@ -161,7 +162,7 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
           "--effectors", arguments->effectorMinutes,
           "So many minutes of random commands in one process instead, the physics watched in every cycle")
       ->excludes(harm)
-      ->check(CLI::PositiveNumber);
+      ->check(moreThanZero());
   command
       ->add_flag("!--no-beams", arguments->effectors.beams,
                  "With --effectors: nothing that puts robots into each other; the bounds are narrow then")

@@ -83,11 +83,13 @@ std::string playerTable(const ordered_json& statistics, const std::array<std::st
   return text;
 }
 
+constexpr int kDamaged = 3;  // the exit code of nonet replay
+
 int runStatistics(const StatisticsArguments& arguments) {
   Console console;
   std::optional<lab::MatchStatistics> statistics;
   std::array<std::string, 2> names;
-  lab::readMonitorLog(arguments.log, [&](const lab::MonitorFrames& stream) {
+  const lab::MonitorLogEnd end = lab::readMonitorLog(arguments.log, [&](const lab::MonitorFrames& stream) {
     if (!statistics) statistics.emplace(stream.field());
     statistics->add(stream.frame());
     names = stream.teams();
@@ -101,10 +103,12 @@ int runStatistics(const StatisticsArguments& arguments) {
   json["names"] = names;
   fmt::print("{} against {}, {:.1f} s of the game\n{}{}", names[0], names[1],
              json.at("seconds").get<double>(), table(json, names), playerTable(json, names));
-  if (arguments.json.empty()) return 0;
-  lab::writeAtomically(arguments.json, json.dump() + "\n");
-  fmt::print("everything in {}\n", arguments.json);
-  return 0;
+  if (!arguments.json.empty()) {
+    lab::writeAtomically(arguments.json, json.dump() + "\n");
+    fmt::print("everything in {}\n", arguments.json);
+  }
+  if (!end.problem.empty()) fmt::print(stderr, "nonet statistics: {}\n", end.problem);
+  return end.end == protocol::LogReader::End::Damaged ? kDamaged : 0;
 }
 
 }  // namespace
@@ -124,7 +128,9 @@ void addStatisticsCommand(CLI::App& app, int& exitCode) {
       "  nonet match --in-process --minutes 2 --monitor-log logs/match.log && nonet statistics "
       "logs/match.log\n"
       "  nonet statistics sparkmonitor.log --json logs/figures.json\n"
-      "What the words mean (touch, kick, shot, pass, duel, ...) is in include/nonet/lab/match/statistics.h.");
+      "What the words mean (touch, kick, shot, pass, duel, ...) is in docs/how-to.md.\n"
+      "Exit codes: 0 all well, also if the log is torn, 1 no figures, 3 the log is damaged: figures up to "
+      "there.");
   command->callback([arguments, &exitCode] { exitCode = runStatistics(*arguments); });
 }
 

@@ -12,6 +12,7 @@
 #include "nonet/app/team_name.h"
 #include "nonet/app/version.h"
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/folder_lock.h"
 #include "nonet/lab/match/table.h"
 
 namespace nonet::app {
@@ -58,7 +59,7 @@ int runTable(TableArguments& arguments) {
   table.games.commandLine = commandLine();
   if (arguments.out.empty())
     arguments.out = "logs/" + std::filesystem::path(arguments.file).stem().string() + "-table";
-  std::filesystem::create_directories(arguments.out);
+  lab::makeFolder(arguments.out);
 
   Console console(arguments.json ? stderr : stdout);
   const std::vector<std::string> folders = lab::entryFolders(table, entries);
@@ -119,7 +120,7 @@ void addTableCommand(CLI::App& app, int& exitCode) {
       "  name = \"low-line\"\n"
       "  side = \"own\"\n"
       "  set = [\"team.formation.stopperBehind=3\"]\n"
-      "All keys: include/nonet/lab/match/table.h. Exit codes: 0 complete, 1 not.");
+      "All keys: docs/how-to.md, Compare many teams. Exit codes: 0 complete, 1 not.");
   command->callback([arguments, &exitCode] { exitCode = runTable(*arguments); });
 }
 

@@ -18,6 +18,7 @@
 #include "nonet/app/agent_processes.h"
 #include "nonet/app/play_client.h"
 #include "nonet/app/play_command_line.h"
+#include "nonet/lab/common/folder_lock.h"
 #include "nonet/sim/server/server.h"
 
 namespace nonet::app {
@@ -89,7 +90,7 @@ class TcpMatch {
         server_(lab::simulationSettings(settings.match), settings.match.seed, serverSettings()) {}
 
   lab::MatchResult run() {
-    if (!settings_.logs.empty()) fs::create_directories(settings_.logs);
+    if (!settings_.logs.empty()) lab::makeFolder(settings_.logs);
     console_.say(fmt::format("{}, seed {}, {}; agents on port {}, monitors on port {}",
                              lab::matchTitle(settings_.match), settings_.match.seed,
                              settings_.realTime ? "real time" : "lock-step", server_.agentPort(),
@@ -201,6 +202,7 @@ class TcpMatch {
     result.droppedMessages = statistics.droppedMessages;
     result.answers = statistics.answers;
     result.delays = statistics.delays;
+    if (const std::string error = server_.recordingError(); !error.empty()) result.warnings.push_back(error);
     for (std::size_t i = 0; i < result.players.size(); ++i) {
       lab::PlayerRecord& player = result.players[i];
       const AgentProcesses::Process& process = processes_.processes()[i];
@@ -212,6 +214,8 @@ class TcpMatch {
       player.messages = report.value("messages", 0L);
       player.passedOver = report.value("passed_over", 0L);
       player.lostCycles = report.value("lost_cycles", 0L);
+      for (const std::string& warning : report.value("warnings", std::vector<std::string>()))
+        result.warnings.push_back(warning);
     }
     return result;
   }

@@ -11,6 +11,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/walk_report.h"
 
@@ -44,8 +45,8 @@ int run(WalkReportArguments arguments) {
   settings.progress = console.trials();
   const lab::WalkReport report = lab::measureWalk(settings);
   console.end();
-  if (!arguments.svgFile.empty()) lab::writeAtomically(arguments.svgFile, lab::walkReportSvg(report));
   fmt::print("{}", arguments.json ? lab::walkReportJson(report) : lab::walkReportTable(report));
+  if (!arguments.svgFile.empty()) lab::writeAtomically(arguments.svgFile, lab::walkReportSvg(report));
   return 0;
 }
 
@@ -66,7 +67,8 @@ void addWalkReportCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--initial", arguments->initial,
                     "Start from the code's own values, not params/type*.toml");
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
-  command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors");
+  command->add_option("--threads", arguments->settings.threads, "Threads, 0 = all processors")
+      ->check(threadCount());
   addServerOptions(*command, arguments->server);
   command->add_flag("--json", arguments->json, "Print JSON");
   command->add_option("--svg", arguments->svgFile, "Write a polar plot of the speeds");

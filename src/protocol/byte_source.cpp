@@ -1,5 +1,6 @@
 #include "byte_source.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -73,12 +74,13 @@ class PlainSource : public ByteSource {
   RawFile file_;
 };
 
+// In pieces: of a call that ends with an error nothing comes out, though the data were sound up to there.
 class ZstdSource : public ByteSource {
  public:
   explicit ZstdSource(RawFile file) : file_(std::move(file)), stream_(ZSTD_createDStream()) {}
 
   std::size_t read(char* out, std::size_t size) override {
-    ZSTD_outBuffer output{out, size, 0};
+    ZSTD_outBuffer output{out, std::min(size, kPiece), 0};
     while (state_ != State::Corrupt && output.pos == 0) {
       // Even at the end of the file the decompressor may hold output back, so it is asked once more.
       const bool more = file_.refill();
@@ -99,6 +101,7 @@ class ZstdSource : public ByteSource {
   }
 
  private:
+  static constexpr std::size_t kPiece = 4096;
   struct StreamFree {
     void operator()(ZSTD_DStream* stream) const { ZSTD_freeDStream(stream); }
   };
@@ -147,6 +150,16 @@ class GzipSource : public ByteSource {
 };
 
 }  // namespace
+
+SourceEnd endOf(const ByteSource& source, bool rest) {
+  using End = LogReader::End;
+  if (source.state() == ByteSource::State::Corrupt)
+    return {End::Damaged, fmt::format("the compressed data are damaged ({})", source.detail())};
+  if (source.state() == ByteSource::State::Truncated)
+    return {End::Torn, "the file was not closed (killed while writing?)"};
+  if (rest) return {End::Torn, "the last line is torn"};
+  return {};
+}
 
 std::unique_ptr<ByteSource> openByteSource(const std::string& path) {
   constexpr std::string_view kZstdMagic("\x28\xB5\x2F\xFD", 4);

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "nonet/protocol/log_file.h"
+
 namespace nonet::protocol {
 
 class ByteSource {
@@ -24,6 +26,15 @@ class ByteSource {
   State state_ = State::Whole;
   std::string detail_;
 };
+
+/// How the log in a source ends, and what is wrong with that, without the file's name.
+struct SourceEnd {
+  LogReader::End end = LogReader::End::Whole;
+  std::string what;  // empty if it is whole
+};
+
+/// Once read() has returned 0. `rest`: something is left behind the last whole line or message.
+SourceEnd endOf(const ByteSource& source, bool rest);
 
 /// Throws LogError, naming the file, if it cannot be opened or read.
 std::unique_ptr<ByteSource> openByteSource(const std::string& path);

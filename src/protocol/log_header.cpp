@@ -63,7 +63,7 @@ std::optional<LogHeader> parseHeaderLine(std::string_view line, const std::strin
     header.options = json.value("options", std::map<std::string, std::string>());
     return header;
   } catch (const std::exception& error) {
-    throw LogError(fmt::format("{}: the header line cannot be read: {}", path, error.what()));
+    throw DamagedLog(fmt::format("{}: the header line cannot be read: {}", path, error.what()));
   }
 }
 

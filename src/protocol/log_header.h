@@ -12,7 +12,8 @@ namespace nonet::protocol {
 /// With the line end.
 std::string headerLine(const LogHeader& header);
 
-/// Nothing if the line is not a header line of ours; LogError, naming `path`, if it is a broken one.
+/// Nothing if the line is not a header line of ours. Throws LogError, naming `path`, if it is of another
+/// format, DamagedLog if it is a broken one.
 std::optional<LogHeader> parseHeaderLine(std::string_view line, const std::string& path);
 
 }  // namespace nonet::protocol

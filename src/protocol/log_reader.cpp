@@ -57,6 +57,10 @@ bool LogReader::next(LogLine& line) {
   return true;
 }
 
+std::string_view LogReader::tornLine() const {
+  return end_ == End::Torn ? std::string_view(buffer_).substr(begin_) : std::string_view();
+}
+
 bool LogReader::readLine(std::string_view& line) {
   if (end_ != End::Whole) {
     return false;
@@ -92,13 +96,8 @@ bool LogReader::fill() {
   if (count > 0) {
     return true;
   }
-  if (source_->state() == ByteSource::State::Corrupt) {
-    stop(End::Damaged, fmt::format("the compressed data are damaged ({})", source_->detail()));
-  } else if (source_->state() == ByteSource::State::Truncated) {
-    stop(End::Torn, "the file was not closed (killed while writing?)");
-  } else if (!buffer_.empty()) {
-    stop(End::Torn, "the last line is torn");
-  }
+  const SourceEnd end = endOf(*source_, !buffer_.empty());
+  if (end.end != End::Whole) stop(end.end, end.what);
   return false;
 }
 

@@ -36,6 +36,8 @@ TEST_F(Help, OfEveryCommandHasAnExample) {
     const std::string text = help({name, "--help"});
     ASSERT_THAT(text, HasSubstr("Example")) << name;
     EXPECT_THAT(text.substr(text.find("Example")), HasSubstr("nonet " + name)) << name;
+    EXPECT_THAT(text, ::testing::Not(HasSubstr("include/")))
+        << name << ": packages hold documents, no sources";
   }
   EXPECT_GE(commands, 20);
 }

@@ -141,6 +141,48 @@ TEST_F(MatchCommand, WhatARobotThoughtIsExplainedFromItsLogs) {
               file("explain.txt"));
   EXPECT_EQ(one.wait(), 0) << one.output();
   EXPECT_NE(one.output().find("Nonet 2 at 0.5"), std::string::npos) << one.output();
+
+  const std::string log = file("logs/Nonet_2.zst");
+  Program other({"explain", log, "--unum", "1", "--at", "0.5"}, file("other.txt"));
+  EXPECT_EQ(other.wait(), 1);
+  EXPECT_NE(other.output().find(log + " is the log of Nonet 2"), std::string::npos) << other.output();
+  fs::resize_file(log, fs::file_size(log) - 100);
+  Program torn({"explain", log, "--at", "0.5"}, file("torn.txt"));
+  EXPECT_EQ(torn.wait(), 0);
+  for (const std::string& words : {log + ": the file was not closed", std::string("Nonet 2 at 0.5")})
+    EXPECT_NE(torn.output().find(words), std::string::npos) << torn.output();
+}
+
+// A disk that is full, for the monitor log and for a player's recordings.
+TEST_F(MatchCommand, RecordingsThatFindNoRoomAreToldAndTheMatchIsPlayed) {
+  for (const bool inProcess : {true, false}) {
+    const std::string folder = file(inProcess ? "here" : "there");
+    fs::create_directories(folder);
+    for (const char* name : {"Nonet_1.trace", "Nonet_1.zst"})
+      fs::create_symlink("/dev/full", fs::path(folder) / name);
+    std::vector<std::string> arguments = {"match",     "--alone",        "--players",       "1",
+                                          "--minutes", "0.02",           "--kick-off-wait", "0.2",
+                                          "--trace",   folder,           "--monitor-log",   "/dev/full",
+                                          "--json",    file("full.json")};
+    if (inProcess) {
+      arguments.emplace_back("--in-process");
+    } else {
+      arguments.insert(arguments.end(), {"--logs", folder});
+    }
+    Program program(arguments, file("full.txt"));
+    EXPECT_EQ(program.wait(), 1) << program.output();
+    const auto result = json("full.json");
+    EXPECT_TRUE(result["finished"]);
+    EXPECT_FALSE(result["flawless"]);
+    std::vector<std::string> names = {"/dev/full", folder + "/Nonet_1.trace"};
+    if (!inProcess) names.insert(names.begin() + 1, folder + "/Nonet_1.zst");
+    ASSERT_EQ(result["warnings"].size(), names.size()) << result["warnings"];
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      EXPECT_TRUE(result["warnings"][i].get<std::string>().starts_with(names[i] + ": recording stops"))
+          << result["warnings"][i];
+      EXPECT_NE(program.output().find("warning: " + names[i]), std::string::npos) << program.output();
+    }
+  }
 }
 
 // On an empty field nothing happens; who asked for a match must hear of it.

@@ -123,6 +123,7 @@ TEST_F(Optimize, ASignalEndsItWithWhatIsLearned) {
   ASSERT_TRUE(program.says("generation 3/"));
   ::kill(program.pid(), SIGTERM);
   EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.output(), HasSubstr("stopping: the generation under way is finished first"));
   EXPECT_THAT(program.output(), HasSubstr("stopped by a signal after generation"));
   EXPECT_TRUE(fs::exists(folder.file("run/best.toml")));
   EXPECT_TRUE(fs::exists(folder.file("run/checkpoint.json")));

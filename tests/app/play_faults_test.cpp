@@ -1,5 +1,8 @@
 // `nonet play` where the machine is slow, the server silent or the disk full.
 #include <chrono>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -113,6 +116,26 @@ TEST_F(PlayFaults, SaysThatTheDiskIsFullWhenItIsAndPlaysOn) {
   EXPECT_EQ(program->wait(), 3);
   const std::string output = program->output();
   EXPECT_EQ(output.find("recording stops"), output.rfind("recording stops")) << "said once";
+}
+
+// A short trace shows only at its end that there is no room.
+TEST_F(PlayFaults, ATraceThatFindsNoRoomIsToldBesideTheLogAndInTheReport) {
+  fs::create_symlink("/dev/full", folder.file("3.trace"));
+  const auto program = play(
+      {"--record", "/dev/full", "--trace", folder.file("3.trace"), "--report", folder.file("report.json")});
+  server.accept();
+  server.receive();
+  server.send(standingMessage(1.0));
+  EXPECT_TRUE(server.receive().has_value());
+  server.close();
+  EXPECT_EQ(program->wait(), 3);
+  std::ifstream file(folder.file("report.json"));
+  const std::string report{std::istreambuf_iterator<char>(file), {}};
+  for (const std::string& words :
+       {std::string("/dev/full: recording stops"), folder.file("3.trace") + ": recording stops"}) {
+    EXPECT_THAT(program->output(), HasSubstr("nonet play: " + words));
+    EXPECT_THAT(report, HasSubstr(words));
+  }
 }
 
 // start.sh writes what an agent says and its log onto the same disk.
@@ -234,7 +257,27 @@ TEST(CommandLine, WhatCannotBeMeantIsRefused) {
       {{"match", "--minutes", "nan"}, "no finite number"},
       {{"match", "--kick-off-wait", "-5"}, "not in range"},
       {{"match", "--set", "RuleHalfTime=1"}, "--minutes"},
+      {{"match", "--set", "Foo=10"}, "unknown setting 'Foo'"},
+      {{"fidelity", NONET_TEST_DATA "/physics", "--svg", folder.file("said.txt")},
+       "said.txt is a file: name a folder"},
+      {{"soak", "--out", folder.file("said.txt/below")}, "said.txt is a file: name a folder"},
       {{"match", "--seed", "-1"}, "no whole number"},
+      {{"match", "--port", "-3"}, "0 to 65535"},
+      {{"match", "--port", "80000"}, "0 to 65535"},
+      {{"serve", "--monitor-port", "80000"}, "0 to 65535"},
+      {{"view", "localhost:99999"}, "1 to 65535"},
+      {{"match", "--alone", "--right-set", "team.ball.kick=false"}, "--alone"},
+      {{"play", "--draw-host", "localhost"}, "--draw"},
+      {{"play", "--wait", "0"}, "--wait: must be more than 0"},
+      {{"serve", "--answer-timeout", "0"}, "--answer-timeout: must be more than 0"},
+      {{"soak", "--effectors", "-1"}, "--effectors: must be more than 0"},
+      {{"series", "own", "wall", "--kick-off-wait", "1e300"}, "not in range"},
+      {{"rise-report", "--threads", "-3"}, "not in range"},
+      {{"env", "run", "--threads", "99999999"}, "not in range"},
+      {{"skill", "play", "kick_quick", "--ball", "1e308,0"}, "not in range"},
+      {{"kick-report", "--kick", "kick_power", "--stop"}, "--kick any"},
+      {{"ball-report", "--skill", "run", "--opponent-data", NONET_SOURCE_DIR},
+       "duel, attack, scrum and loose"},
       {{"play", "--wait", "nan"}, "no finite number"},
       {{"play", "--start=nan,1"}, "finite"},
       {{"soak", "--effectors", "nan"}, "no finite number"},
@@ -249,6 +292,24 @@ TEST(CommandLine, WhatCannotBeMeantIsRefused) {
     EXPECT_EQ(program.wait(), 1) << arguments.back();
     EXPECT_THAT(program.output(), HasSubstr(words));
   }
+}
+
+// What is short waits in a buffer until the program ends.
+TEST(CommandLine, OutputThatFindsNoRoomIsTold) {
+  const TestFolder folder("nonet_full_output");
+  for (const std::string arguments : {"env --list", "--help"}) {
+    Program program("/bin/sh", {"-c", NONET_BINARY " " + arguments + " >/dev/full"}, folder.file("said.txt"));
+    EXPECT_EQ(program.wait(), 1) << arguments;
+    EXPECT_THAT(program.output(), HasSubstr("nonet: the standard output is not complete")) << arguments;
+  }
+}
+
+TEST(CommandLine, ATornBatchOfActionsIsTold) {
+  const TestFolder folder("nonet_torn_batch");
+  Program program("/bin/sh", {"-c", "echo hello | " NONET_BINARY " env run >/dev/null"},
+                  folder.file("said.txt"));
+  EXPECT_EQ(program.wait(), 1);
+  EXPECT_THAT(program.output(), HasSubstr("ended within a batch of actions, after 6 of its"));
 }
 
 TEST(CommandLine, AMisspelledCommandGetsAHint) {

@@ -112,6 +112,7 @@ TEST_F(ReplayFiles, WhatIsNoLogEndsWithThreeAndALineThatSaysWhatItIs) {
       {write("random", std::string("\x01\x02\xff\x00\x07 garbage\n\x03\n", 17)), "line 1 is binary data"},
       {write("monitor", "((FieldLength 30)(FieldWidth 20))(RSG 0 1)\n"), "line 1 is of a monitor's stream"},
       {write("prose", "Dear diary,\n"), "line 1 is 'Dear diary,'"},
+      {write("torn_prose", "Dear diary"), "line 1 is 'Dear diary'"},
   };
   for (const auto& [file, what] : cases) {
     const auto [code, output] = replay({file});
@@ -127,6 +128,14 @@ TEST_F(ReplayFiles, ATornEndIsFineDamageIsNot) {
   const auto [torn, said] = replay({write("torn.log", whole.substr(0, whole.size() - 30))});
   EXPECT_EQ(torn, 0) << said;
   EXPECT_NE(said.find("the last line is torn"), std::string::npos) << said;
+  // Within the header and within the first block of the compressed data.
+  fs::copy(folder.file("logs/Nonet_1.zst"), folder.file("early.zst"));
+  fs::resize_file(folder.file("early.zst"), 2000);
+  for (const std::string& file : {write("early.log", whole.substr(0, 500)), folder.file("early.zst")}) {
+    const auto [early, nothing] = replay({file});
+    EXPECT_EQ(early, 0) << nothing;
+    EXPECT_NE(nothing.find("0 whole lines were read"), std::string::npos) << nothing;
+  }
 
   std::string damaged = whole;
   const std::size_t line = damaged.find("\n< ", damaged.size() / 2);
@@ -136,7 +145,7 @@ TEST_F(ReplayFiles, ATornEndIsFineDamageIsNot) {
   EXPECT_NE(output.find("damaged, 1 lines are neither message nor answer"), std::string::npos) << output;
 
   const auto [wrong, header] = replay({write("header.log", "# nonet-log 1 {\"version\":}\n")});
-  EXPECT_EQ(wrong, 2);
+  EXPECT_EQ(wrong, 3);
   EXPECT_NE(header.find(folder.file("header.log") + ": the header line cannot be read"), std::string::npos);
 }
 

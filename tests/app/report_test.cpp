@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/fake_server.h"
 #include "app/program.h"
 
 namespace nonet::app {
@@ -60,6 +61,24 @@ TEST_F(ReportCommand, SaysWhereItFoundNoServer) {
   Program without({"kick-report", "--trials", "1", "--port", "3100"}, folder_.file("without.txt"));
   EXPECT_EQ(without.wait(), 1);
   EXPECT_TRUE(without.says("--port.*--tcp")) << without.output();
+}
+
+// Somebody listens there, but is no server.
+TEST_F(ReportCommand, DoesNotWaitForeverWhereNobodySpeaks) {
+  const FakeServer silent;
+  const std::string port = std::to_string(silent.port());
+  Program agent({"kick-report", "--trials", "1", "--tcp", "--port", port, "--monitor-port", port},
+                folder_.file("silent.txt"));
+  EXPECT_EQ(agent.wait(), 1);
+  EXPECT_TRUE(agent.says("127.0.0.1:" + port + ": no message in 10 s.*--port")) << agent.output();
+  serve();
+  std::vector<std::string> arguments = {"kick-report", "--kick", "kick_power", "--trials", "1"};
+  const std::vector<std::string> place = there();
+  arguments.insert(arguments.end(), place.begin(), place.end());
+  arguments.back() = port;
+  Program monitor(arguments, folder_.file("blind.txt"));
+  EXPECT_EQ(monitor.wait(), 1);
+  EXPECT_TRUE(monitor.says("127.0.0.1:" + port + ": .*--monitor-port")) << monitor.output();
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <signal.h>
 
 #include "app/browser.h"
+#include "app/fake_server.h"
 #include "app/program.h"
 
 namespace nonet::app {
@@ -197,6 +198,18 @@ TEST(SeriesCommand, PlaysOnAServerThatRuns) {
   EXPECT_TRUE(server.running());
 }
 
+TEST(SeriesCommand, SaysAtOnceThatItWaitsForAServer) {
+  const TestFolder folder("nonet_series_waits");
+  const ClosedPort nobody;
+  const std::string port = std::to_string(nobody.port());
+  Program series(seriesOf({"own", "own", "--where", "127.0.0.1:" + port + ":" + port}, folder.file("games")),
+                 folder.file("1.txt"));
+  EXPECT_TRUE(series.says("waiting up to 90 s for a server at 127.0.0.1, monitor port " + port))
+      << series.output();
+  ::kill(series.pid(), SIGTERM);
+  EXPECT_EQ(series.wait(), 1);
+}
+
 // SIGKILL in the middle, then the same command again: the same files as without.
 TEST(SeriesCommand, KilledAndResumedItEndsInTheSameResult) {
   const TestFolder folder("nonet_series_kill");
@@ -250,6 +263,13 @@ TEST(SeriesCommand, ReportWantsAFinishedSeries) {
   Program report({"report", folder.file("")}, folder.file("1.txt"));
   EXPECT_EQ(report.wait(), 1);
   EXPECT_THAT(report.output(), HasSubstr("holds no finished series: play one with nonet series"));
+  for (const char* text : {"", "{}"}) {
+    std::ofstream(folder.file("result.json")) << text;
+    std::ofstream(folder.file("matches.jsonl")) << "{\"a\": \"left\", \"statistics\": {}}\n";
+    Program damaged({"report", folder.file("")}, folder.file("1.txt"));
+    EXPECT_EQ(damaged.wait(), 1);
+    EXPECT_THAT(damaged.output(), HasSubstr("result.json: is damaged: the command of the series"));
+  }
 }
 
 }  // namespace

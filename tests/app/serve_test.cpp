@@ -197,6 +197,17 @@ TEST_F(ServeCommand, TimeThatTheServerLostIsNotCaughtUp) {
   EXPECT_LE(crowded, 5);
 }
 
+TEST_F(ServeCommand, ARecordingThatFindsNoRoomIsTold) {
+  Program recording(
+      {"serve", "--realtime", "--port", "0", "--monitor-port", "0", "--record-monitor", "/dev/full"},
+      folder.file("full.txt"));
+  ASSERT_TRUE(recording.says("/dev/full: recording stops.*No space left")) << recording.output();
+  ::kill(recording.pid(), SIGTERM);
+  EXPECT_EQ(recording.wait(), 1);
+  const std::string said = recording.output();
+  EXPECT_EQ(said.find("recording stops"), said.rfind("recording stops")) << "said once";
+}
+
 /// A connection to the server from one of this machine's addresses.
 class Caller {
  public:
@@ -318,6 +329,7 @@ TEST_F(Scripts, SayWhatTheyNeed) {
 TEST_F(Scripts, RefuseWhatCannotWork) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
       {"start.sh", {"127.0.0.1", "99999"}},
+      {"start.sh", {"127.0.0.1", "99999999999999999999"}},
       {"start.sh", {"127.0.0.1", "-t", "A/B"}},
       {"start.sh", {"127.0.0.1", "-t", "A B"}},
       {"start_penalty_kicker.sh", {"127.0.0.1", "x"}},
@@ -329,6 +341,8 @@ TEST_F(Scripts, RefuseWhatCannotWork) {
     Program program(command(script), arguments, folder.file("refused.txt"));
     EXPECT_EQ(program.wait(), 2) << script << ": " << program.output();
     EXPECT_FALSE(program.output().empty());
+    EXPECT_EQ(program.output().find("common.sh"), std::string::npos)
+        << "the shell's own words: " << program.output();
   }
   EXPECT_FALSE(fs::exists(folder.file("logs/pids")));
 }

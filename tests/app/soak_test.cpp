@@ -147,6 +147,10 @@ TEST(Soak, OtherOptionsAreAnotherSoak) {
   const auto [code, output] = soak("0.03");
   EXPECT_EQ(code, 1);
   EXPECT_NE(output.find("another soak"), std::string::npos) << output;
+  std::ofstream(folder.file("out/soak.json")) << "";
+  const auto [emptied, said] = soak("0.03");
+  EXPECT_EQ(emptied, 1);
+  EXPECT_NE(said.find(folder.file("out/soak.json") + " is damaged or gone"), std::string::npos) << said;
 }
 
 TEST(Soak, WhoIsHarmedComesBack) {
@@ -159,6 +163,21 @@ TEST(Soak, WhoIsHarmedComesBack) {
   EXPECT_TRUE(result["complete"]);
   for (const std::string kind : {"kill", "cut", "server"})
     EXPECT_EQ(result["faults"][kind]["survived"], 1) << kind;
+}
+
+// Whoever is just being harmed when the user has seen enough has not failed.
+TEST(Soak, AFaultThatIsCutShortDoesNotCount) {
+  const TestFolder folder("nonet_soak_stopped");
+  Program program({"soak", "--faults", "--times", "1", "--players", "2", "--pause", "0.2", "--kinds", "stop",
+                   "--out", folder.file("out")},
+                  folder.file("soak.txt"));
+  ASSERT_TRUE(program.says("stop 1: ", 90.0)) << program.output();
+  ::kill(program.pid(), SIGINT);
+  EXPECT_EQ(program.wait(), 1) << program.output();
+  EXPECT_THAT(program.output(), HasSubstr("this one does not count"));
+  const Json result = jsonIn(folder.file("out/faults.json"));
+  EXPECT_FALSE(result["complete"]);
+  EXPECT_EQ(result["faults"]["stop"]["times"], 0);
 }
 
 /// Seconds since 1970, as a program reads them that is started with these variables.

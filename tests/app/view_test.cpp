@@ -215,6 +215,33 @@ TEST(ViewCommand, ServesItsFilesAndNothingElse) {
   EXPECT_THAT(missing.output(), ::testing::HasSubstr("neither a file nor HOST:PORT"));
 }
 
+// A torn log is shown and counted as far as it goes, and so is a damaged one; both are told.
+TEST(ViewCommand, ALogThatEndsEarlyIsToldAsByStatistics) {
+  const TestFolder folder("nonet_view_torn");
+  const std::string log = folder.file("game.mon");
+  const RecordedGame game(log);
+  const auto statistics = [&] {
+    Program program({"statistics", log}, folder.file("statistics.txt"));
+    const int code = program.wait();
+    return std::pair(code, program.output());
+  };
+  EXPECT_EQ(statistics().first, 0);
+  EXPECT_THAT(statistics().second, ::testing::Not(::testing::HasSubstr("nonet statistics:")));
+
+  const auto size = fs::file_size(log);
+  std::fstream(log, std::ios::binary | std::ios::in | std::ios::out).seekp(-4, std::ios::end) << "sums";
+  EXPECT_EQ(statistics().first, 3);
+  EXPECT_THAT(statistics().second,
+              ::testing::HasSubstr("nonet statistics: " + log + ": the compressed data are damaged"));
+  fs::resize_file(log, size - 8);
+  EXPECT_EQ(statistics().first, 0);
+  EXPECT_THAT(statistics().second, ::testing::HasSubstr(log + ": the file was not closed"));
+  EXPECT_THAT(statistics().second, ::testing::HasSubstr("Reds"));
+  const RunningView view(folder, log);
+  ASSERT_GT(view.port(), 0);
+  EXPECT_TRUE(view.says("nonet view: .*the file was not closed.*whole lines were read"));
+}
+
 bool isGrass(int r, int g, int b) {
   return g > 60 && g > r + 20 && g > b + 20;
 }

@@ -184,6 +184,15 @@ TEST_F(LogFile, TornAnywhere) {
   }
 }
 
+TEST_F(LogFile, WhatThereIsOfATornLineIsGiven) {
+  LogReader torn(write("torn", "< a\n> bc"));
+  EXPECT_EQ(readAll(torn).lines.size(), 1U);
+  EXPECT_EQ(torn.tornLine(), "> bc");
+  LogReader whole(write("whole", "< a\n"));
+  EXPECT_EQ(readAll(whole).lines.size(), 1U);
+  EXPECT_EQ(whole.tornLine(), "");
+}
+
 TEST_F(LogFile, DamageEndsTheReadingCleanly) {
   {
     LogWriter writer(path("a.zst"), header(), 1);
@@ -222,6 +231,7 @@ TEST_F(LogFile, ErrorsNameTheFile) {
   EXPECT_NE(errorOf(folder_.string()).find("directory"), std::string::npos);
   const std::string broken = errorOf(write("broken", "# nonet-log 1 {\"version\"\n"));
   EXPECT_NE(broken.find(path("broken") + ": the header line"), std::string::npos) << broken;
+  EXPECT_THROW(LogReader(path("broken")), DamagedLog);
   const std::string future = errorOf(write("future", "# nonet-log 2 {}\n"));
   EXPECT_NE(future.find("format 2"), std::string::npos) << future;
   EXPECT_NE(errorOf(write("bare", "# nonet-log 1\n")), "");

@@ -5,10 +5,10 @@
 
 namespace nonet::app {
 
-/// The folder with params/ and skills/: `given` (--data) if not empty, otherwise NONET_DATA if set, otherwise
-/// found from the executable (agent::dataFolder()). Throws agent::DataError that says what is missing and
-/// where it was looked for.
-std::string dataFolder(const std::string& given = {});
+/// The folder with params/ and skills/: `given` (of `option`) if not empty, otherwise NONET_DATA if set,
+/// otherwise found from the executable (agent::dataFolder()). Throws agent::DataError that says what is
+/// missing and where it was looked for.
+std::string dataFolder(const std::string& given = {}, const std::string& option = "--data");
 
 /// The folder of three.js, which the viewer's page needs: that of an installation, share/nonet/three beside
 /// the folder of `executable`, otherwise `systemFolder`.

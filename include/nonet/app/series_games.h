@@ -14,10 +14,14 @@
 
 namespace nonet::app {
 
+/// A line for the user, from any thread.
+using SayLine = std::function<void(const std::string& line)>;
+
 /// Plays where `settings.place` says, in processes. `folder`: of the series; what agents say is kept there,
-/// in games/, if a game goes wrong. Throws std::runtime_error if an executable is none of Nonet.
+/// in games/, if a game goes wrong. `say`: for what a game waits. Throws std::runtime_error if an executable
+/// is none of Nonet.
 lab::PlayGame gamesOfProcesses(const lab::SeriesSettings& settings, const std::string& folder,
-                               const std::string& dataFolder);
+                               const std::string& dataFolder, const SayLine& say);
 
 /// A place "HOST:PORT:MONITORPORT"; nothing for "process", "tcp" and "realtime". Throws std::runtime_error if
 /// it is none of these.
@@ -74,7 +78,8 @@ class SideAgents {
 /// the server knows already.
 lab::GameRecord playOnServer(const lab::SeriesSettings& settings, const lab::SeriesGame& game,
                              lab::MatchSettings& match, SideAgents& agents,
-                             const std::function<bool(double)>& goOn, const std::string& logs);
+                             const std::function<bool(double)>& goOn, const std::string& logs,
+                             const SayLine& say);
 
 /// Puts values in the place of "{key}".
 std::string filledIn(std::string text,

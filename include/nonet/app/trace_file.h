@@ -15,6 +15,12 @@ class TraceFile {
 
   /// After a step of the agent.
   void add(const agent::Agent& agent);
+  /// Ends the file; nothing is written after that. The destructor does the same, but cannot tell of an error.
+  void close() { file_.close(); }
+
+  /// A full disk must not end a match: after an error nothing more is written. Empty, or why, with the file's
+  /// name.
+  const std::string& error() const { return file_.error(); }
 
  private:
   protocol::CompressedFile file_;

@@ -29,6 +29,12 @@ class LogError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// One of our logs whose header line is damaged.
+class DamagedLog : public LogError {
+ public:
+  using LogError::LogError;
+};
+
 /// All that is needed to build the same agent again.
 struct LogHeader {
   std::string version;  // of the program
@@ -84,7 +90,8 @@ class ByteSource;
 /// Reads a log line by line.
 class LogReader {
  public:
-  /// Throws LogError if the file cannot be opened, or is one of ours with a header that cannot be read.
+  /// Throws LogError if the file cannot be opened or is of a format that this program does not know,
+  /// DamagedLog if it is one of ours with a header that cannot be read.
   explicit LogReader(const std::string& path);
   ~LogReader();
   LogReader(LogReader&&) noexcept;
@@ -103,6 +110,8 @@ class LogReader {
   End end() const { return end_; }
   /// One sentence with the file's name if the end is not Whole, otherwise empty.
   const std::string& problem() const { return problem_; }
+  /// What there is of the line within which the file is torn; empty if compressed data end before it begins.
+  std::string_view tornLine() const;
 
  private:
   bool readLine(std::string_view& line);

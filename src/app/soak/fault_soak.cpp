@@ -243,8 +243,8 @@ class FaultSoak {
         {"clock", {&FaultSoak::jumpClock, true}}};
     const Kind& what = kKinds.at(kind);
     Fellow& fellow = choose(what.behindProxy);
-    Tally& tally = tallies_[kind];
-    console_.say(fmt::format("{} {}: {}", kind, ++tally.times, hitsAll(kind) ? "all" : fellow.name()));
+    console_.say(
+        fmt::format("{} {}: {}", kind, tallies_[kind].times + 1, hitsAll(kind) ? "all" : fellow.name()));
     std::string trouble;
     watch_->longestSilence();
     const std::size_t connectedTo = server_;
@@ -252,6 +252,7 @@ class FaultSoak {
     (this->*what.action)(fellow, trouble);
     const Clock::time_point begin = Clock::now();
     const bool back = awaitAll(settings_.patience);
+    if (StopSignal::came()) return console_.say("  stopped: this one does not count");
     const double took = std::chrono::duration<double>(Clock::now() - begin).count();
     if (!back) {
       trouble += (trouble.empty() ? "" : "; ") + missing() +
@@ -261,6 +262,8 @@ class FaultSoak {
     const double silence = watch_->longestSilence();
     if (server_ == connectedTo && silence > kLongestSilence)
       trouble += (trouble.empty() ? "" : "; ") + fmt::format("the match stood still for {:.1f} s", silence);
+    Tally& tally = tallies_[kind];
+    ++tally.times;
     tally.longest = std::max(tally.longest, took);
     if (trouble.empty()) {
       ++tally.survived;

@@ -88,7 +88,12 @@ class MatchSoak {
 
   void readPlayed() {
     const Json before = jsonFrom(file("soak.json"));
-    if (before.is_object() && before != choice())
+    const bool begun = fs::exists(file("soak.json")) || fs::exists(file("matches.jsonl"));
+    if (begun && !before.is_object())
+      throw std::runtime_error(
+          fmt::format("{} is damaged or gone: put back what it held, or choose another folder with --out",
+                      file("soak.json")));
+    if (begun && before != choice())
       throw std::runtime_error(
           fmt::format("{} holds another soak ({}): give the same options or another --out", settings_.out,
                       before.dump()));

@@ -230,7 +230,7 @@ nlohmann::json robotShapes() {
   return types;
 }
 
-Track readMonitorLog(const std::string& path) {
+Track readMonitorLog(const std::string& path, std::string* problem) {
   constexpr double kLogStep = 0.2;  // s, server facts 5.4
   Track track(kLogStep);
   protocol::LogReader log(path);
@@ -243,6 +243,7 @@ Track readMonitorLog(const std::string& path) {
     throw protocol::LogError(
         fmt::format("{}: no monitor messages in it; nonet match --monitor-log FILE records one", path));
   }
+  if (problem != nullptr) *problem = log.problem();
   return track;
 }
 

@@ -8,6 +8,7 @@
 
 #include "nonet/app/commands.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/app/view/http_server.h"
 #include "nonet/app/view/live_monitor.h"
 #include "nonet/app/view/trace_folder.h"
@@ -58,16 +59,9 @@ class Viewer {
   Viewer(const ViewArguments& arguments, const std::string& three)
       : track_(kLiveStep), source_(arguments.source), three_(three) {
     if (fs::exists(source_)) {
-      track_ = readMonitorLog(source_);
-      fmt::print("view: {}, {:.0f} s, {} events\n", source_,
-                 static_cast<double>(track_.frames()) * track_.step(), track_.events().size());
+      openLog();
     } else {
-      const std::size_t colon = source_.rfind(':');
-      if (colon == std::string::npos || colon == 0 ||
-          source_.find_first_not_of("0123456789", colon + 1) != std::string::npos) {
-        throw std::runtime_error(source_ + ": neither a file nor HOST:PORT of a server");
-      }
-      live_.emplace(io_, source_.substr(0, colon), source_.substr(colon + 1), track_);
+      follow();
     }
     if (!arguments.traces.empty()) {
       traces_.emplace(arguments.traces);
@@ -85,6 +79,23 @@ class Viewer {
   }
 
  private:
+  void openLog() {
+    std::string problem;
+    track_ = readMonitorLog(source_, &problem);
+    fmt::print("view: {}, {:.0f} s, {} events\n", source_,
+               static_cast<double>(track_.frames()) * track_.step(), track_.events().size());
+    if (!problem.empty()) fmt::print(stderr, "nonet view: {}\n", problem);
+  }
+
+  void follow() {
+    const std::size_t colon = source_.rfind(':');
+    const bool two = colon != std::string::npos && colon > 0;
+    if (!two || !portFrom(std::string_view(source_).substr(colon + 1)))
+      throw std::runtime_error(
+          fmt::format("{}: neither a file nor HOST:PORT of a server with a port from 1 to 65535", source_));
+    live_.emplace(io_, source_.substr(0, colon), source_.substr(colon + 1), track_);
+  }
+
   HttpResponse answer(const HttpRequest& request) const {
     constexpr std::string_view kThree = "/three/";
     if (request.path == "/track") {
@@ -135,7 +146,8 @@ void addViewCommand(CLI::App& app, int& exitCode) {
                    "beside the truth and lists why it acts")
       ->check(CLI::ExistingDirectory);
   command->add_option("--port", arguments->port, "Port of the page on this machine, 0: any free one")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(ownPort());
   command->footer(
       "Examples:\n"
       "  nonet match --in-process --minutes 1 --monitor-log logs/match.mon && nonet view logs/match.mon\n"

@@ -248,6 +248,10 @@ MatchResult playInProcess(const MatchSettings& match, const std::string& dataFol
     if (observers.afterCycle && !observers.afterCycle(simulation, watcher)) more = false;
   }
   MatchResult result = watcher.finish(simulation);
+  if (monitorLog) {
+    monitorLog->close();
+    if (monitorLog->failed()) result.warnings.push_back(monitorLog->error());
+  }
   for (std::size_t i = 0; i < players.size(); ++i) {
     PlayerRecord& record = result.players[i];
     record.messages = players[i].messages;

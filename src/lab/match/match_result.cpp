@@ -36,7 +36,7 @@ int MatchResult::falls(bool rightTeam) const {
 }
 
 bool MatchResult::flawless() const {
-  return finished && timeouts == 0 && droppedMessages == 0 &&
+  return finished && timeouts == 0 && droppedMessages == 0 && warnings.empty() &&
          std::all_of(players.begin(), players.end(), [](const PlayerRecord& player) {
            return player.connected && !player.gone && player.ending.empty() && player.passedOver == 0 &&
                   player.lostCycles == 0;
@@ -62,6 +62,7 @@ nlohmann::ordered_json MatchResult::toJson() const {
       {"timeouts", timeouts},
       {"dropped_messages", droppedMessages},
       {"violations", violations},
+      {"warnings", warnings},
       {"players", nlohmann::ordered_json::array()},
   };
   if (answers.count() > 0) json["answers"] = jsonOf(answers);
@@ -106,6 +107,7 @@ std::string MatchResult::toText() const {
     text += fmt::format("of {} answers {}\nof {} cycles that began late {}\n", answers.count(),
                         textOf(answers), delays.count(), textOf(delays));
   }
+  for (const std::string& warning : warnings) text += fmt::format("warning: {}\n", warning);
   return text + invariants;
 }
 

@@ -14,6 +14,26 @@ void takeLength(const protocol::MonitorReader& reader, std::string_view name, do
   if (found != reader.field().end()) length = found->second;
 }
 
+// Cuts off the next message: a line, or what stands behind its length. Nothing if it is not whole.
+std::optional<std::string_view> cutMessage(std::string_view& rest) {
+  constexpr std::size_t kLengthSize = 4;
+  std::size_t begin = 0;
+  std::size_t size = rest.find('\n');
+  std::size_t next = size == std::string_view::npos ? size : size + 1;
+  // Lengths are far below 2^24, so their first byte is 0; lines begin with a bracket.
+  if (rest.starts_with('\0')) {
+    if (rest.size() < kLengthSize) return std::nullopt;
+    begin = kLengthSize;
+    size = 0;
+    for (const char byte : rest.substr(0, kLengthSize)) size = size << 8U | static_cast<unsigned char>(byte);
+    next = begin + size;
+  }
+  if (next > rest.size()) return std::nullopt;
+  const std::string_view message = rest.substr(begin, size);
+  rest.remove_prefix(next);
+  return message;
+}
+
 }  // namespace
 
 bool MonitorFrames::message(std::string_view text) {
@@ -56,52 +76,39 @@ void MonitorFrames::takeRobots() {
     frame_.fouls.push_back({foul.type, teamOf(foul.side), foul.unum});
 }
 
-void readMonitorLog(const std::string& path, const std::function<void(const MonitorFrames& stream)>& use) {
+MonitorLogEnd readMonitorLog(const std::string& path,
+                             const std::function<void(const MonitorFrames& stream)>& use) {
   const auto source = protocol::openByteSource(path);
   constexpr std::size_t kBlock = 1 << 20;
   std::string buffer;
-  std::size_t at = 0;  // of the next message
   MonitorFrames stream;
   long messages = 0;
   long frames = 0;
-  const auto give = [&](std::string_view text) {
-    ++messages;
-    if (!stream.message(text)) return;
-    ++frames;
-    use(stream);
-  };
   for (bool more = true; more;) {
-    buffer.erase(0, at);
-    at = 0;
     const std::size_t size = buffer.size();
     buffer.resize(size + kBlock);
     const std::size_t read = source->read(buffer.data() + size, kBlock);
     buffer.resize(size + read);
     more = read > 0;
-    while (at < buffer.size()) {
-      // Lengths are far below 2^24, so their first byte is 0; lines begin with a bracket.
-      if (buffer[at] == '\0') {
-        if (buffer.size() - at < 4) break;
-        std::size_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-          length = length << 8U | static_cast<unsigned char>(buffer[at + i]);
-        if (buffer.size() - at - 4 < length) break;
-        give(std::string_view(buffer).substr(at + 4, length));
-        at += 4 + length;
-      } else {
-        const std::size_t end = buffer.find('\n', at);
-        if (end == std::string::npos) break;
-        if (end > at) give(std::string_view(buffer).substr(at, end - at));
-        at = end + 1;
-      }
+    std::string_view rest = buffer;
+    while (const auto message = cutMessage(rest)) {
+      if (message->empty()) continue;
+      ++messages;
+      if (!stream.message(*message)) continue;
+      ++frames;
+      use(stream);
     }
+    buffer.erase(0, buffer.size() - rest.size());
   }
+  const auto [end, what] = protocol::endOf(*source, !buffer.empty());
   if (frames == 0)
     throw std::runtime_error(
-        fmt::format("{}: no monitor stream ({} lines or messages, none of them a scene): expected the file "
-                    "of --monitor-log, a "
-                    "server's sparkmonitor.log, or messages with their length",
-                    path, messages));
+        fmt::format("{}: no monitor stream ({} lines or messages, none of them a scene{}{}): expected the "
+                    "file of --monitor-log, a server's sparkmonitor.log, or messages with their length",
+                    path, messages, what.empty() ? "" : "; ", what));
+  if (what.empty()) return {};
+  return {end, fmt::format("{}: {}; {} messages were read, up to {:.1f} s of the game", path, what, messages,
+                           stream.frame().time)};
 }
 
 }  // namespace nonet::lab

@@ -20,15 +20,37 @@ constexpr const char* kChoice = "series.json";
 constexpr const char* kMatches = "matches.jsonl";
 constexpr const char* kTimes = "times.jsonl";
 constexpr const char* kResult = "result.json";
+constexpr const char* kRemedy = "put back what it held, or choose another folder with --out";
 
 int indexOf(const ordered_json& line) {
   return 2 * (line.at("pair").get<int>() - 1) + line.at("game").get<int>() - 1;
 }
 
 std::map<int, ordered_json> readGames(const std::string& path) {
-  std::map<int, ordered_json> games;
-  for (const ordered_json& line : readWholeLines(path)) games[indexOf(line)] = line;
-  return games;
+  return readOrDamaged(path, kRemedy, [&path] {
+    std::map<int, ordered_json> games;
+    for (const ordered_json& line : readWholeLines(path)) games[indexOf(line)] = line;
+    return games;
+  });
+}
+
+SeriesSettings readChoice(const std::string& path) {
+  return readOrDamaged(path, kRemedy, [&path] {
+    std::ifstream file(path);
+    return SeriesSettings::fromJson(ordered_json::parse(file));
+  });
+}
+
+// A line of matches.jsonl, with all that the result is made of.
+GameRecord recordOf(const SeriesGame& game, const ordered_json& line, const std::string& path) {
+  GameRecord record{game, line, {}};
+  const auto seed = readOrDamaged(path, kRemedy, [&record] {
+    (void)(record.scoreA() + record.scoreB() + record.gameTime());
+    return record.line.at("seed").get<std::uint64_t>();
+  });
+  if (seed != game.seed)
+    throw std::runtime_error(fmt::format("{}: a game has another seed than the series", path));
+  return record;
 }
 
 }  // namespace
@@ -50,7 +72,7 @@ GameRecord gameRecord(const SeriesGame& game, int scoreLeft, int scoreRight, dou
 
 Series::Series(const std::string& folder, const SeriesSettings& settings)
     : folder_(folder), settings_(settings) {
-  fs::create_directories(folder);
+  makeFolder(folder);
   lock_ = lockFolder(folder);
   if (fs::exists(path(kChoice))) resume(settings);
   writeAtomically(path(kChoice), settings_.toJson().dump(1) + "\n");
@@ -58,8 +80,7 @@ Series::Series(const std::string& folder, const SeriesSettings& settings)
 }
 
 void Series::resume(const SeriesSettings& settings) {
-  std::ifstream file(path(kChoice));
-  const auto before = SeriesSettings::fromJson(ordered_json::parse(file));
+  const SeriesSettings before = readChoice(path(kChoice));
   if (before.sameGames(settings)) {
     settings_ = before;
     readLines();
@@ -70,6 +91,9 @@ void Series::resume(const SeriesSettings& settings) {
         folder_));
   }
   const int counted = result().games;
+  // Who plays more of it says how the whole is played.
+  if (settings_.pairs != settings.pairs || settings_.sequential != settings.sequential)
+    settings_.commandLine = settings.commandLine;
   settings_.pairs = settings.pairs;
   settings_.sequential = settings.sequential;
   settings_.monitorLogs = settings.monitorLogs;
@@ -85,9 +109,7 @@ void Series::resume(const SeriesSettings& settings) {
 void Series::readLines() {
   const std::map<int, ordered_json> times = readGames(path(kTimes));
   for (const auto& [index, line] : readGames(path(kMatches))) {
-    GameRecord record{gameOf(settings_, index), line, {}};
-    if (record.game.seed != line.at("seed").get<std::uint64_t>())
-      throw std::runtime_error(fmt::format("{}: a game has another seed than the series", path(kMatches)));
+    GameRecord record = recordOf(gameOf(settings_, index), line, path(kMatches));
     const auto time = times.find(index);
     if (time != times.end()) record.times = time->second;
     records_.emplace(index, record);

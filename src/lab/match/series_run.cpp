@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <time.h>
 
 #include "nonet/lab/match/frame_sources.h"
@@ -190,6 +191,7 @@ PlayGame inProcessGames(const SeriesSettings& settings, const std::string& overl
           return watcher.result().cycles % kCyclesBetweenReports != 0 || goOn(watcher.result().gameTime);
         };
         const MatchResult result = playInProcess(match, dataFolder, 1, observers);
+        for (const std::string& warning : result.warnings) spdlog::warn("{}", warning);
         GameRecord record = gameRecord(game, score[0], score[1], result.gameTime, result.finished);
         record.line["signature"] = fmt::format("{:016x}", result.signature);
         record.line["statistics"] = statistics.toJson();

@@ -79,6 +79,14 @@ TeamSettings teamOf(const SeriesSettings& settings, bool sideB, const std::strin
   return team;
 }
 
+// Of our own server, for every game. Throws if it would not take them.
+sim::Settings gameSettings(const SeriesSettings& settings) {
+  sim::Settings server;
+  for (const std::string& file : settings.settingFiles) server.overlayFile(file);
+  for (const std::string& assignment : settings.settingAssignments) setServerSetting(server, assignment);
+  return server;
+}
+
 // FNV-1a, 64 bits.
 void hashFile(const std::string& path, std::uint64_t& hash) {
   std::ifstream file(path, std::ios::binary);
@@ -259,10 +267,12 @@ void checkPlace(const SeriesSettings& settings) {
   const auto demand = [](bool holds, const std::string& what) {
     if (!holds) throw std::runtime_error(what);
   };
-  if (playedHere(settings.place))
+  if (playedHere(settings.place)) {
+    (void)gameSettings(settings);
     return demand(settings.serverCommand.empty(),
                   "--server-command (serverCommand of a table) needs --where HOST:PORT:MONITORPORT (where): "
                   "the server that it starts");
+  }
   // A server apart has settings of its own, and its monitor stream is only counted.
   demand(settings.settingAssignments.empty(),
          fmt::format("--set {} (settings of a table) does nothing on a server at {}: give it to that server",
@@ -291,9 +301,7 @@ MatchSettings matchOf(const SeriesSettings& settings, const SeriesGame& game,
   match.kickOffWait = settings.kickOffWait;
   if (settings.monitorLogs)
     match.monitorLog = fmt::format("{}/game-{}-{}.mon", overlayFolder, game.pair, game.game);
-  for (const std::string& file : settings.settingFiles) match.settings.overlayFile(file);
-  for (const std::string& assignment : settings.settingAssignments)
-    setServerSetting(match.settings, assignment);
+  match.settings = gameSettings(settings);
   return match;
 }
 

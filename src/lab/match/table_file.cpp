@@ -97,6 +97,25 @@ SideSettings readSide(const toml::table& table, const std::string& path, const s
   return side;
 }
 
+// As the options of a match are checked; settings are tried, so that none fails in the first game.
+void checkGames(const SeriesSettings& games, const toml::table& file, const Reader& reader) {
+  if (games.pairs < 1 || !(games.minutes > 0.0 && games.minutes < 1e4) || games.players < 1 ||
+      games.players > 11)
+    reader.fail(file, "pairs, minutes and players must be positive, players at most 11");
+  if (!(games.kickOffWait >= 0.0 && games.kickOffWait <= 1e4))
+    reader.fail(*file.get("kickOffWait"), "kickOffWait must be 0 to 10000 s");
+  const toml::array* assignments = file["settings"].as_array();
+  if (assignments == nullptr) return;
+  sim::Settings tried;
+  for (const toml::node& assignment : *assignments) {
+    try {
+      setServerSetting(tried, assignment.value_or(std::string()));
+    } catch (const std::runtime_error& error) {
+      reader.fail(assignment, error.what());
+    }
+  }
+}
+
 void checkSides(const TableSettings& table, const std::string& path) {
   std::set<std::string> names;
   for (const SideSettings& side : table.sides) {
@@ -133,9 +152,7 @@ TableSettings readTable(const std::string& path, const std::string& dataFolder) 
   reader.ignore("side");
   reader.end();
   games.seed = static_cast<std::uint64_t>(seed);
-  if (games.pairs < 1 || !(games.minutes > 0.0 && games.minutes < 1e4) || games.players < 1 ||
-      games.players > 11)
-    reader.fail(file, "pairs, minutes and players must be positive, players at most 11");
+  checkGames(games, file, reader);
   if (!sprt.empty()) {
     if (sprt.size() != 2 || sprt[0] >= sprt[1])
       reader.fail(file, "sprt: expected two rising numbers, such as [0.0, 0.5]");

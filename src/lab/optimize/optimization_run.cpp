@@ -124,7 +124,7 @@ OptimizationRun OptimizationRun::create(const std::string& folder, const Optimiz
         fmt::format("{} holds a run already: continue it with --resume or choose another folder", folder));
   }
   OptimizationRun run(folder, settings, dataFolder);
-  fs::create_directories(folder);
+  makeFolder(folder);
   run.lock_ = lockFolder(folder);
   fs::remove(folder + kCheckpoint);
   std::ofstream generations(folder + kGenerations, std::ios::binary | std::ios::trunc);

@@ -202,9 +202,7 @@ std::string parameterPaths(const std::vector<json>& lines, const SearchSpace& sp
 }  // namespace
 
 std::string writeOptimizationReport(const std::string& folder, const std::string& dataFolder) {
-  std::ifstream configFile(folder + "/config.json");
-  if (!configFile) throw std::runtime_error(fmt::format("{} is not the folder of a run", folder));
-  const auto settings = OptimizationSettings::fromJson(json::parse(configFile));
+  const OptimizationSettings settings = OptimizationRun::readSettings(folder);
   const std::vector<json> lines = readLines(folder + "/generations.jsonl");
   if (lines.empty()) throw std::runtime_error(fmt::format("{}: no generation is finished yet", folder));
   const agent::AgentParameters parameters = settings.startParameters(dataFolder);

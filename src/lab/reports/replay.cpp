@@ -112,6 +112,7 @@ class Replay {
   ReplayReport run() {
     LogLine line;
     while (reader_.next(line)) {
+      linesRead_ = line.number;
       if (line.kind == LogLine::Kind::Received) {
         received(line);
       } else if (line.kind == LogLine::Kind::Sent && report_.own) {
@@ -119,7 +120,7 @@ class Replay {
       } else if (line.kind == LogLine::Kind::Truth && settings_.truthObserver) {
         settings_.truthObserver(line.text);
       } else if (line.kind == LogLine::Kind::Other) {
-        if (strangers_++ == 0) judgeStranger(line);
+        if (strangers_++ == 0) judgeStranger(line.number, line.text);
       }
     }
     finish();
@@ -199,16 +200,23 @@ class Replay {
   }
 
   /// Keeps what can be said about the first line that no log of an agent has.
-  void judgeStranger(const LogLine& line) {
-    const std::string_view text = line.text;
+  void judgeStranger(std::size_t number, std::string_view text) {
     const bool binary = std::any_of(text.begin(), text.end(), [](char c) {
       return static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\r';
     });
     const bool monitor = text.starts_with("((") || text.starts_with("(RSG") || text.starts_with("RSG");
-    stranger_ = fmt::format("line {} is {}", line.number,
+    stranger_ = fmt::format("line {} is {}", number,
                             binary    ? "binary data"
                             : monitor ? "of a monitor's stream"
                                       : fmt::format("'{}'", text.substr(0, 40)));
+  }
+
+  /// Torn before a first message, and what there is may be of a log, whose lines begin with a mark.
+  bool tornEarly() const {
+    constexpr std::string_view kMarks = "<>=#";
+    const std::string_view rest = reader_.tornLine();
+    return reader_.end() == protocol::LogReader::End::Torn && strangers_ == 0 &&
+           (rest.empty() || kMarks.find(rest.front()) != std::string_view::npos);
   }
 
   void judge() {
@@ -216,10 +224,12 @@ class Replay {
     const bool messages = session_.counts().messages > 0;
     if (reader_.end() == protocol::LogReader::End::Damaged) {
       report_.sound = false;
-    } else if (!report_.own && !messages) {
+    } else if (!report_.own && !messages && !tornEarly()) {
+      const std::string_view rest = reader_.tornLine();
+      if (strangers_ == 0 && !rest.empty()) judgeStranger(linesRead_ + 1, rest);
       report_.sound = false;
       report_.problem = fmt::format("{}: no log of an agent, which has lines that begin with '<' and '>': {}",
-                                    report_.file, strangers_ > 0 ? stranger_ : "it is empty");
+                                    report_.file, stranger_);
     } else if (report_.own && strangers_ > 0) {
       report_.sound = false;
       report_.problem = fmt::format("{}: damaged, {} lines are neither message nor answer: {}", report_.file,
@@ -249,8 +259,9 @@ class Replay {
   agent::Session session_;
   ReplayReport report_;
   std::string written_;
-  long strangers_ = 0;    // lines of no known kind
-  std::string stranger_;  // what the first of them is
+  std::size_t linesRead_ = 0;
+  long strangers_ = 0;                    // lines of no known kind
+  std::string stranger_ = "it is empty";  // or what the first of them is
   std::array<long, 8> kindCounts_{};
   long landmarks_ = 0;
   long balls_ = 0;
@@ -320,7 +331,16 @@ agent::AgentSettings agentOfLog(const std::string& path, const ReplaySettings& s
 }
 
 ReplayReport replay(const std::string& path, const ReplaySettings& settings) {
-  return Replay(path, settings, agentOfLog(path, settings)).run();
+  try {
+    return Replay(path, settings, agentOfLog(path, settings)).run();
+  } catch (const protocol::DamagedLog& error) {
+    ReplayReport report;
+    report.file = path;
+    report.own = true;
+    report.problem = error.what();
+    report.sound = false;
+    return report;
+  }
 }
 
 nlohmann::ordered_json ReplayReport::toJson() const {
@@ -358,9 +378,11 @@ std::string ReplayReport::toText() const {
       "{}: {} messages, {} unknown tokens, {} round-trip differences, {} lost cycles, {} passed over\n", file,
       counts.messages, counts.unknownTokens, roundtripDifferences, counts.lostCycles, counts.passedOver);
   text += fmt::format("  cycle: median {:.1f} us, 99.9th percentile {:.1f} us\n", cycleMedian, cycleP999);
-  text += "  perceptors:";
-  for (const auto& [name, number] : perceptors) text += fmt::format(" {} {},", name, number);
-  text.back() = '\n';
+  if (!perceptors.empty()) {
+    text += "  perceptors:";
+    for (const auto& [name, number] : perceptors) text += fmt::format(" {} {},", name, number);
+    text.back() = '\n';
+  }
   if (own)
     text += fmt::format("  effectors: {} answers differ from the recorded ones\n", effectorDifferences);
   if (firstDifference) {

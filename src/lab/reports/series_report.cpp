@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/lab/common/atomic_file.h"
+#include "nonet/lab/common/json_lines.h"
 #include "nonet/lab/match/statistics.h"
 
 #include "lab/common/plot.h"
@@ -25,6 +26,15 @@ using nlohmann::json;
 constexpr const char* kColorA = "#0066cc";
 constexpr const char* kColorB = "#cc5500";
 constexpr std::size_t kMostKicks = 600;  // drawn per team
+constexpr const char* kResultRemedy = "the command of the series, given once more, writes it again";
+constexpr const char* kMatchesRemedy = "play the series again in another folder";
+
+std::string resultFile(const std::string& folder) {
+  return folder + "/result.json";
+}
+std::string matchesFile(const std::string& folder) {
+  return folder + "/matches.jsonl";
+}
 
 /// All games, with what belongs to A first.
 struct Games {
@@ -45,14 +55,16 @@ struct Games {
 
 Games readGames(const std::string& folder) {
   Games games;
-  std::ifstream result(folder + "/result.json");
+  std::ifstream result(resultFile(folder));
   if (!result)
     throw std::runtime_error(fmt::format(
         "{} holds no finished series: play one with nonet series --out, or let it go on to its end", folder));
-  games.result = json::parse(result);
-  std::ifstream file(folder + "/matches.jsonl");
-  for (std::string text; std::getline(file, text);) games.lines.push_back(json::parse(text));
-  if (games.lines.empty()) throw std::runtime_error(fmt::format("{}/matches.jsonl is empty", folder));
+  games.result = readOrDamaged(resultFile(folder), kResultRemedy, [&result] { return json::parse(result); });
+  std::ifstream file(matchesFile(folder));
+  readOrDamaged(matchesFile(folder), kMatchesRemedy, [&] {
+    for (std::string text; std::getline(file, text);) games.lines.push_back(json::parse(text));
+  });
+  if (games.lines.empty()) throw std::runtime_error(fmt::format("{} is empty", matchesFile(folder)));
   if (!games.lines.front().contains("statistics"))
     throw std::runtime_error(fmt::format("{}: its games were played without statistics", folder));
   return games;
@@ -297,6 +309,13 @@ std::string kickTable(const Games& games) {
   return html + "</table>\n";
 }
 
+// What the games' lines tell.
+std::string aboutGames(const Games& games) {
+  return goalTimes(games) + differences(games) + teamTable(games) + places(games) +
+         "<h2>Kicks and the ball's way</h2>\n" + kickFan(games, false) + kickFan(games, true) +
+         ballPath(games) + kickTable(games) + playerTable(games);
+}
+
 }  // namespace
 
 std::string writeSeriesReport(const std::string& folder) {
@@ -308,10 +327,9 @@ std::string writeSeriesReport(const std::string& folder) {
       "table{border-collapse:collapse} td,th{padding:.15em .8em;text-align:right;border-bottom:1px solid "
       "#ddd}"
       "td:first-child{text-align:left}</style></head><body>\n";
-  html += headline(games) + goalTimes(games) + differences(games) + teamTable(games) + places(games);
-  html +=
-      "<h2>Kicks and the ball's way</h2>\n" + kickFan(games, false) + kickFan(games, true) + ballPath(games);
-  html += kickTable(games) + playerTable(games) + "</body></html>\n";
+  html += readOrDamaged(resultFile(folder), kResultRemedy, [&games] { return headline(games); });
+  html += readOrDamaged(matchesFile(folder), kMatchesRemedy, [&games] { return aboutGames(games); });
+  html += "</body></html>\n";
   std::string path = folder + "/report.html";
   writeAtomically(path, html);
   return path;

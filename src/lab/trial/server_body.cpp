@@ -1,6 +1,7 @@
 #include "lab/trial/server_body.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 
 #include <asio.hpp>
 #include <fmt/format.h>
+#include <poll.h>
 
 #include "nonet/lab/trial/true_pose.h"
 #include "nonet/math/angle.h"
@@ -23,6 +25,8 @@ namespace {
 using asio::ip::tcp;
 
 constexpr int kUnum = 2;
+constexpr int kLongestSilence = 10;      // s without a message of the server
+constexpr int kCyclesToFirstView = 500;  // of the agent, without a message of the monitor port
 
 class Connection {
  public:
@@ -36,6 +40,8 @@ class Connection {
       throw std::runtime_error(fmt::format("{}: {} (is a server running there?)", name_, error.message()));
     socket_.set_option(tcp::no_delay(true));
   }
+
+  const std::string& name() const { return name_; }
 
   void send(std::string_view message) {
     std::string stream;
@@ -52,6 +58,7 @@ class Connection {
       if (frames_.failed()) throw std::runtime_error(fmt::format("{}: {}", name_, frames_.error()));
       std::error_code error;
       if (!wait && socket_.available(error) == 0) return std::nullopt;
+      awaitBytes();
       const std::span<char> room = frames_.prepare(65536);
       const std::size_t size = socket_.read_some(asio::buffer(room.data(), room.size()), error);
       if (error) throw std::runtime_error(fmt::format("{}: {}", name_, error.message()));
@@ -60,6 +67,16 @@ class Connection {
   }
 
  private:
+  void awaitBytes() {
+    pollfd waiting{socket_.native_handle(), POLLIN, 0};
+    const auto wait = [&waiting] { return ::poll(&waiting, 1, 1000 * kLongestSilence); };
+    int ready = wait();
+    while (ready < 0 && errno == EINTR) ready = wait();
+    if (ready == 0)
+      throw std::runtime_error(fmt::format(
+          "{}: no message in {} s: is it an empty server for agents? Check --port", name_, kLongestSilence));
+  }
+
   std::string name_;
   tcp::socket socket_;
   protocol::FrameReader frames_;
@@ -70,6 +87,7 @@ class Truth {
  public:
   void take(std::string_view message) {
     if (!stream_.feed(message)) return;
+    known_ = true;
     for (const protocol::MonitorRobot& robot : stream_.robots()) {
       if (robot.unum == kUnum && !robot.bodies.empty())
         torso_ = protocol::poseFromMonitor(robot.bodies.front());
@@ -79,6 +97,7 @@ class Truth {
       selfCollisions_ += foul.type == static_cast<int>(sim::FoulType::SelfCollision) ? 1 : 0;
   }
 
+  bool known() const { return known_; }
   const Pose3& torso() const { return torso_; }
   const world::BallMotion& ball() const { return ball_; }
   int selfCollisions() const { return selfCollisions_; }
@@ -96,6 +115,7 @@ class Truth {
   }
 
   protocol::MonitorReader stream_;
+  bool known_ = false;
   Pose3 torso_ = Pose3::Identity();
   world::BallMotion ball_{};
   double time_ = 0.0;  // s, game time of the last picture
@@ -150,12 +170,16 @@ struct ServerBody::Implementation {
   void look() {
     monitor.send("(reqfullstate)");
     while (const auto scene = monitor.receive(false)) truth.take(*scene);
+    if (!truth.known() && ++cyclesBlind > kCyclesToFirstView)
+      throw std::runtime_error(
+          fmt::format("{}: no message of the monitor port: check --monitor-port", monitor.name()));
   }
 
   agent::Robot robot;
   asio::io_context io;
   Connection agent;
   Connection monitor;
+  int cyclesBlind = 0;
   protocol::Percept percept;
   protocol::Effectors effectors;
   std::string text;

@@ -63,6 +63,10 @@ class Stage {
       if (!player_.running()) over += kCycleTime;
     }
     if (trial_.kick) judgeBall();
+    if (log_) {
+      log_->close();
+      trial_.recordingError = log_->error();
+    }
     return std::move(trial_);
   }
 

@@ -1,7 +1,9 @@
 #include "nonet/sim/server/monitor.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <stdexcept>
 
@@ -293,7 +295,7 @@ void MonitorStream::writeBody(const AgentInfo& agent, const model::BodySpec& bod
 }
 
 MonitorLog::MonitorLog(const Simulation& simulation, const std::string& path, int cyclesPerMessage)
-    : stream_(simulation), cyclesPerMessage_(cyclesPerMessage) {
+    : stream_(simulation), path_(path), cyclesPerMessage_(cyclesPerMessage) {
   if (!path.ends_with(".log")) {
     file_ = std::make_unique<protocol::CompressedFile>(path);
     return;
@@ -304,13 +306,33 @@ MonitorLog::MonitorLog(const Simulation& simulation, const std::string& path, in
 
 void MonitorLog::cycle() {
   constexpr int kMessagesPerFull = 15;  // 3 s in the server's log
-  if (--cyclesToNext_ > 0) return;
+  if (failed() || --cyclesToNext_ > 0) return;
   cyclesToNext_ = cyclesPerMessage_;
   write(stream_.next(messagesSinceFull_ >= kMessagesPerFull));
   write("\n");
   messagesSinceFull_ = stream_.lastWasFull() ? 1 : messagesSinceFull_ + 1;
   // A killed server loses at most what came after the last full message.
   if (stream_.lastWasFull()) flush();
+  noticeError();
+}
+
+void MonitorLog::close() {
+  if (auto* plain = std::get_if<std::ofstream>(&file_)) {
+    if (plain->is_open()) plain->close();
+  } else {
+    std::get<1>(file_)->close();
+  }
+  noticeError();
+}
+
+void MonitorLog::noticeError() {
+  if (failed()) return;
+  if (const auto* plain = std::get_if<std::ofstream>(&file_)) {
+    if (!*plain)
+      error_ = fmt::format("{}: recording stops, it cannot be written: {}", path_, std::strerror(errno));
+  } else {
+    error_ = std::get<1>(file_)->error();
+  }
 }
 
 void MonitorLog::write(std::string_view text) {

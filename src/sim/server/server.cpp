@@ -59,6 +59,7 @@ void Server::Implementation::cycle() {
   reap();
   if (cycles % 2 == 0) statistics.droppedMessages += monitors.sendMessages();
   if (log) log->cycle();
+  watchLog();
   if (callback) callback(simulation);
   if (!serverSettings.endWithMatch || !matchIsOver()) return;
   // Nobody's last message is cut off by the end of the connection.
@@ -233,6 +234,12 @@ bool Server::Implementation::matchIsOver() {
   return simulation.match().playMode == protocol::PlayMode::GameOver && ++cyclesAfterEnd > kLinger;
 }
 
+// A full disk does not end a match, but is said when it happens.
+void Server::Implementation::watchLog() {
+  if (!log || !log->failed() || std::exchange(toldOfLog, true)) return;
+  spdlog::warn("server: {}", log->error());
+}
+
 Server::Server(const Settings& settings, std::uint64_t seed, const ServerSettings& serverSettings)
     : implementation_(std::make_unique<Implementation>(settings, seed, serverSettings)) {}
 
@@ -265,6 +272,8 @@ void Server::run() {
   self.monitors.stopAccepting();
   self.signals.cancel();
   self.io.poll();
+  if (self.log) self.log->close();
+  self.watchLog();
 }
 
 void Server::stop() {
@@ -282,6 +291,10 @@ const Simulation& Server::simulation() const {
 
 Server::Statistics Server::statistics() const {
   return implementation_->statistics;
+}
+
+std::string Server::recordingError() const {
+  return implementation_->log ? implementation_->log->error() : "";
 }
 
 }  // namespace nonet::sim

@@ -82,6 +82,7 @@ struct Server::Implementation {
   void reap();
   void executeTrainerCommands();
   bool matchIsOver();
+  void watchLog();
 
   ServerSettings serverSettings;
   std::uint64_t seed;
@@ -96,6 +97,7 @@ struct Server::Implementation {
   asio::steady_timer cycleTimer;
   std::vector<std::unique_ptr<AgentLink>> agents;
   std::optional<MonitorLog> log;
+  bool toldOfLog = false;
   std::function<void(const Simulation&)> callback;
   Statistics statistics;
   std::atomic<bool> stopping{false};

@@ -1,8 +1,11 @@
 #include "nonet/sim/settings/settings.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "nonet/config/assignment.h"
+#include "nonet/config/nearest.h"
 #include "nonet/sim/settings/declarations.h"
 
 namespace nonet::sim {
@@ -28,6 +31,17 @@ void checkGoals(const Settings& s) {
       "the ball does not fit into the goals: GoalDepth = {} m and GoalWidth = {} m must be more than "
       "twice BallRadius = {} m; make the goals larger or the ball smaller",
       s.goalDepth, s.goalWidth, s.ballRadius));
+}
+
+// A guess only if it is near: a far one misleads.
+void checkKnown(const Settings& settings, std::string_view name) {
+  std::vector<std::string> names;
+  for (const config::ParameterView& view : listSettings(settings)) names.push_back(view.key);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  const std::string nearest = config::nearestOf(names, name);
+  const bool near = 2 * config::editDistance(nearest, name) <= name.size();
+  throw config::ParameterError(fmt::format("unknown setting '{}': {}nonet serve --list-settings shows all",
+                                           name, near ? fmt::format("did you mean '{}'? ", nearest) : ""));
 }
 
 }  // namespace
@@ -61,6 +75,7 @@ void Settings::setField(std::string_view preset) {
 }
 
 void Settings::set(std::string_view name, std::string_view value) {
+  checkKnown(*this, name);
   config::setParameterText(*this, name, value);
 }
 

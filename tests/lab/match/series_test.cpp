@@ -203,6 +203,64 @@ TEST(Series, FewerPairsOrAnotherTestLeaveWhatIsThere) {
   EXPECT_TRUE(folder.text("result.json").empty()) << "it tells of ten pairs";
 }
 
+TEST(Series, DamagedFilesAreNamedWithTheRemedy) {
+  const Folder folder("damaged");
+  const SeriesSettings settings = settingsOf(2);
+  { Series(folder.path(), settings).add(fakeGame(gameOf(settings, 0))); }
+  const auto errorWith = [&](const std::string& file, const std::string& text) {
+    const std::string whole = folder.text(file);
+    std::ofstream(folder.path() + "/" + file) << text;
+    std::string said;
+    try {
+      const Series series(folder.path(), settings);
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+    std::ofstream(folder.path() + "/" + file) << whole;
+    return said;
+  };
+  const std::string seedOnly = R"({"pair":1,"game":1,"seed":1})";
+  for (const auto& [file, text] :
+       std::vector<std::pair<std::string, std::string>>{{"series.json", ""},
+                                                        {"series.json", "{}"},
+                                                        {"matches.jsonl", "{}\n"},
+                                                        {"matches.jsonl", seedOnly + "\n"},
+                                                        {"times.jsonl", "[]\n"}}) {
+    const std::string said = errorWith(file, text);
+    EXPECT_EQ(said.find(folder.path() + "/" + file + ": is damaged: "), 0U) << said;
+    EXPECT_NE(said.find("choose another folder with --out"), std::string::npos) << said;
+  }
+  EXPECT_EQ(Series(folder.path(), settings).played(), 1);
+}
+
+// How the whole is played, not its first part; a mere resumption keeps the words of the beginning.
+TEST(Series, MorePairsBringTheirCommandLine) {
+  const Folder folder("words");
+  SeriesSettings settings = settingsOf(1);
+  settings.commandLine = "--pairs 1";
+  { const Series series(folder.path(), settings); }
+  settings.commandLine = "--pairs 1 --jobs 2";
+  EXPECT_EQ(Series(folder.path(), settings).settings().commandLine, "--pairs 1");
+  settings.pairs = 2;
+  settings.commandLine = "--pairs 2";
+  EXPECT_EQ(Series(folder.path(), settings).settings().commandLine, "--pairs 2");
+  EXPECT_NE(folder.text("series.json").find("--pairs 2"), std::string::npos);
+}
+
+TEST(Series, AFileIsNoFolder) {
+  const Folder folder("file");
+  std::ofstream(folder.path()) << "a file";
+  for (const std::string& place : {folder.path(), folder.path() + "/below"}) {
+    try {
+      const Series series(place, settingsOf(1));
+      ADD_FAILURE() << place;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "cannot make the folder " + place + ": " + folder.path() + " is a file: name a folder");
+    }
+  }
+}
+
 // Somebody edits a side's file while the series runs.
 TEST(Series, AGameDuringWhichASideChangedDoesNotCount) {
   const Folder data("changed_data");
@@ -404,7 +462,10 @@ TEST(Series, SettingsThatAMatchDecidesAreRefused) {
   SeriesSettings settings = settingsOf(1);
   settings.settingAssignments = {"RuleHalfTime=15"};
   EXPECT_THROW(matchOf(settings, gameOf(settings, 0), ""), std::runtime_error);
+  settings.settingAssignments = {"Foo=1"};
+  EXPECT_NE(placeError(settings).find("unknown setting 'Foo'"), std::string::npos) << "before the first game";
   settings.settingAssignments = {"SayLossShare=0.25"};
+  EXPECT_EQ(placeError(settings), "");
   EXPECT_EQ(matchOf(settings, gameOf(settings, 0), "").settings.sayLossShare, 0.25);
 }
 

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "nonet/lab/match/frame_sources.h"
 #include "nonet/lab/match/match.h"
+#include "nonet/sim/server/monitor.h"
 
 namespace nonet::lab {
 namespace {
@@ -438,6 +440,52 @@ TEST(FrameSources, StreamAndSimulationAgree) {
   EXPECT_GT(compared, 10);
   EXPECT_TRUE(swapped);
   std::filesystem::remove(settings.monitorLog);
+}
+
+// An empty field for a second, compressed.
+void writeMonitorLog(const std::string& path) {
+  sim::Simulation simulation{sim::Settings{}};
+  sim::MonitorLog log(simulation, path, 1);
+  for (int i = 0; i < 50; ++i) {
+    simulation.step();
+    log.cycle();
+  }
+}
+
+// A log is torn by a power cut, and damaged by a disk: what comes before is read, and the rest is told.
+TEST(FrameSources, ALogThatEndsEarlyIsTold) {
+  using End = protocol::LogReader::End;
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("nonet_ends_" + std::to_string(::getpid()) + ".mon"))
+          .string();
+  int frames = 0;
+  const auto read = [&] {
+    frames = 0;
+    return readMonitorLog(path, [&](const MonitorFrames&) { ++frames; });
+  };
+  writeMonitorLog(path);
+  EXPECT_EQ(read().end, End::Whole);
+  EXPECT_EQ(read().problem, "");
+  EXPECT_EQ(frames, 50);
+
+  // The last bytes are the checksum.
+  const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path));
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekg(size - 1);
+  const int last = file.get();
+  file.seekp(size - 1);
+  file.put(static_cast<char>(last ^ 1));
+  file.close();
+  EXPECT_EQ(read().end, End::Damaged);
+  EXPECT_NE(read().problem.find(path + ": the compressed data are damaged"), std::string::npos);
+  EXPECT_GT(frames, 40) << "only the last piece is lost";
+
+  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(size) - 8);
+  EXPECT_EQ(read().end, End::Torn);
+  EXPECT_NE(read().problem.find(path + ": the file was not closed"), std::string::npos);
+  EXPECT_GT(frames, 0);
+  EXPECT_LT(frames, 50);
+  std::filesystem::remove(path);
 }
 
 TEST(FrameSources, GarbageIsRefusedWithAReason) {

@@ -115,9 +115,22 @@ TEST(Table, ErrorsNameTheLine) {
   EXPECT_THAT(TableFile(std::string("against='x'\n") + kThree).error(), HasSubstr("no side is called 'x'"));
   EXPECT_THAT(TableFile(std::string("sprt2=[1]\n") + kThree).error(), HasSubstr("sprt2"));
   EXPECT_THAT(TableFile("pairs = \n").error(), HasSubstr(".toml:1"));
+  for (const char* wait : {"-5.0", "nan", "20000.0"})
+    EXPECT_THAT(TableFile(std::string("pairs = 7\nkickOffWait = ") + wait + "\n").error(),
+                HasSubstr(".toml:2: kickOffWait must be 0 to 10000 s"));
   EXPECT_THAT(TableFile("[[!a]]\n").error(), HasSubstr(".toml:1: not TOML: somewhere"));
   EXPECT_THAT(TableFile("pairs = 7\n\xC3\xB6 = 1\n").error(), HasSubstr(".toml:2: not TOML: a letter"));
   EXPECT_THAT(TableFile("title = '\xC3\xB6'\npears = 1\n").error(), HasSubstr("'pears'"));
+}
+
+// Not only when the first game begins.
+TEST(Table, SettingsOfTheServerAreTriedWhenItIsRead) {
+  EXPECT_THAT(TableFile("settings = ['QuickSolver=true',\n'Foo=1']\n").error(),
+              HasSubstr(".toml:2: unknown setting 'Foo'"));
+  EXPECT_THAT(TableFile("pairs = 1\nsettings = ['RuleHalfTime=15']\n").error(),
+              HasSubstr(".toml:2: RuleHalfTime=15: the match decides this itself"));
+  const TableSettings table = TableFile(std::string("settings = ['QuickSolver=true']\n") + kThree).read();
+  EXPECT_EQ(table.games.settingAssignments, (std::vector<std::string>{"QuickSolver=true"}));
 }
 
 TEST(Table, ShowsDifferencesFromTheSideOfTheRow) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -379,6 +380,26 @@ TEST(MonitorLog, OneMessagePerLineEveryFifthOfASecondAndFullEveryThree) {
   std::remove(path.c_str());
   const Simulation simulation{Settings{}};
   EXPECT_THROW(MonitorLog(simulation, "/no/such/folder/x.log"), std::runtime_error);
+}
+
+TEST(MonitorLog, SaysThatTheDiskIsFull) {
+  const std::string plain =
+      ::testing::TempDir() + "nonet_full_monitor_" + std::to_string(::getpid()) + ".log";
+  std::filesystem::create_symlink("/dev/full", plain);
+  for (const std::string& path : {std::string("/dev/full"), plain}) {
+    Moving match;
+    MonitorLog log(match.sim, path);
+    EXPECT_FALSE(log.failed());
+    for (int i = 0; i < 20; ++i) {
+      match.step();
+      log.cycle();
+    }
+    EXPECT_TRUE(log.failed());
+    EXPECT_THAT(log.error(),
+                ::testing::HasSubstr(path + ": recording stops, it cannot be written: No space"));
+    log.close();
+  }
+  std::filesystem::remove(plain);
 }
 
 }  // namespace

@@ -174,6 +174,9 @@ TEST(Settings, UnknownNameSuggestsTheNearest) {
   EXPECT_THAT(messageOf([&] { settings.set("RuleHalftime", "60"); }),
               AllOf(HasSubstr("'RuleHalftime'"), HasSubstr("did you mean 'RuleHalfTime'")));
   EXPECT_THAT(messageOf([&] { settings.set("BeamNoise", "0"); }), HasSubstr("did you mean 'BeamNoiseXY'"));
+  EXPECT_EQ(messageOf([&] { settings.setAssignment("Foo=10"); }),
+            "unknown setting 'Foo': nonet serve --list-settings shows all")
+      << "no name is near";
 }
 
 TEST(Settings, WrongTypesAndRangesAreErrors) {

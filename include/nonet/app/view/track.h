@@ -79,7 +79,8 @@ class Track {
 /// All shapes of the five robot types for the browser: bodies with parent, offset, anchor, axis and joint.
 nlohmann::json robotShapes();
 
-/// Reads a monitor log, plain or compressed. Throws protocol::LogError if there is no message in it.
-Track readMonitorLog(const std::string& path);
+/// Reads a monitor log, plain or compressed. `problem`, if given, gets one sentence with the file's name and
+/// up to where it was read if it is torn or damaged. Throws protocol::LogError if there is no message in it.
+Track readMonitorLog(const std::string& path, std::string* problem = nullptr);
 
 }  // namespace nonet::app

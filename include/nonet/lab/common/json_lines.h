@@ -1,9 +1,12 @@
-// Files of one JSON text a line, to which a process appends that may be killed at any time.
+// Files of JSON that a process has written which may be killed at any time: of one text a line, to which it
+// appends, and of a single one.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace nonet::lab {
@@ -15,5 +18,16 @@ std::vector<nlohmann::ordered_json> readWholeLines(const std::string& path);
 
 /// On the disk when it returns. Throws std::runtime_error: the line cannot be written.
 void appendLine(const std::string& path, const nlohmann::ordered_json& line);
+
+/// What `read` makes of the file's JSON. Throws std::runtime_error with the file's name and the remedy,
+/// beside what `read` throws itself, if that is no JSON, or lacks a key that is asked for.
+template <class Read>
+auto readOrDamaged(const std::string& path, const std::string& remedy, const Read& read) {
+  try {
+    return read();
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{}: is damaged: {} ({})", path, remedy, error.what()));
+  }
+}
 
 }  // namespace nonet::lab

@@ -11,6 +11,7 @@
 
 #include "nonet/lab/match/frame.h"
 #include "nonet/lab/match/statistics.h"
+#include "nonet/protocol/log_file.h"
 #include "nonet/protocol/monitor_reader.h"
 #include "nonet/sim/simulation.h"
 
@@ -63,9 +64,16 @@ class MonitorFrames {
   std::array<std::string, 2> teams_;
 };
 
+/// How a monitor log ends, as protocol::LogReader has it: torn, as that of a killed server, or damaged.
+struct MonitorLogEnd {
+  protocol::LogReader::End end = protocol::LogReader::End::Whole;
+  std::string problem;  // one sentence with the file's name and up to where it was read; empty if whole
+};
+
 /// Reads a monitor log: one message a line, or messages behind their length as on the wire; plain, gzip or
-/// zstd. Calls `use` for each frame. Throws std::runtime_error if there is no file or nothing in it is a
-/// monitor message.
-void readMonitorLog(const std::string& path, const std::function<void(const MonitorFrames& stream)>& use);
+/// zstd. Calls `use` for each frame, also of a log that is torn or damaged farther on. Throws
+/// std::runtime_error if there is no file or nothing in it is a monitor message.
+MonitorLogEnd readMonitorLog(const std::string& path,
+                             const std::function<void(const MonitorFrames& stream)>& use);
 
 }  // namespace nonet::lab

@@ -97,9 +97,10 @@ struct MatchResult {
   std::uint64_t violations = 0;  // of invariants, if they were watched
   std::string invariants;        // what was watched and found, lines; empty if not
   std::vector<PlayerRecord> players;
+  std::vector<std::string> warnings;  // recordings that are not whole, each with the file's name
 
   int falls(bool rightTeam) const;
-  /// Every player came, stayed to the end, and answered every message in time.
+  /// Every player came, stayed to the end, and answered every message in time; every recording is whole.
   bool flawless() const;
   nlohmann::ordered_json toJson() const;
   std::string toText() const;

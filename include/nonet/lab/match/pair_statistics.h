@@ -24,6 +24,7 @@ PairSummary summarizePairs(std::span<const double> values);
 struct SequentialBounds {
   double low = 0.0;
   double high = 0.0;
+  friend bool operator==(const SequentialBounds&, const SequentialBounds&) = default;
 };
 /// "D0,D1". Throws std::runtime_error that says what is expected.
 SequentialBounds parseSequentialBounds(std::string_view text);

@@ -90,7 +90,8 @@ std::string placeFor(const SeriesSettings& settings);
 bool playedHere(const std::string& place);
 
 /// What would do nothing where the games are played (placeFor()): settings or monitor logs of a server that
-/// is not ours, a command for a server that is. Throws std::runtime_error that names the option.
+/// is not ours, a command for a server that is. Also settings that our own server would not take. Throws
+/// std::runtime_error that names the option.
 void checkPlace(const SeriesSettings& settings);
 
 /// Those of both sides and of the server's settings, as the files are now.

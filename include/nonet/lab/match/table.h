@@ -5,7 +5,8 @@
 //   title = "Formations"
 //   against = "full"        # one against all others; without this line everybody against everybody
 //   pairs = 50              # of games per entry, at most if there is an sprt
-//   minutes = 10            # also: seed, players, kickOffWait, sprt = [0.0, 0.5], where, settings = ["A=b"]
+//   minutes = 10            # also: seed, players, kickOffWait, sprt = [0.0, 0.5], settings = ["A=b"], where,
+//                           # serverCommand
 //
 //   [[side]]
 //   name = "full"           # also its name on the field
@@ -15,6 +16,9 @@
 //   name = "boxes"
 //   params = ["my.toml"]    # beside the file; further ones overlay earlier ones
 //   set = ["team.ball.kick=false"]
+//   types = [0, 2, 2, 2, 2, 2, 2, 2, 4]   # robot types from number 1 on
+//
+// docs/how-to.md explains every key.
 #pragma once
 
 #include <optional>

@@ -82,8 +82,8 @@ struct ReplayReport {
   std::string toText() const;
 };
 
-/// Throws protocol::LogError that names the file if it cannot be read or its header makes no sense,
-/// config::ParameterError for wrong settings.
+/// Throws protocol::LogError that names the file if it cannot be read or what stands in its header makes no
+/// agent, config::ParameterError for wrong settings. A damaged header line is a report that is not sound.
 ReplayReport replay(const std::string& path, const ReplaySettings& settings);
 
 /// The agent's configuration as the log tells it. Throws protocol::LogError.

@@ -62,13 +62,14 @@ struct SkillTrial {
   std::vector<SkillMark> marks;
   std::vector<motion::SkillPlayer::Stretch> stretches;  // of curves that take longer than they should
   std::optional<SkillKick> kick;                        // if there was a ball
+  std::string recordingError;  // why the monitor log is not whole, with its name; empty if it is
 
   /// Joints whose target changes, in the order of JointId.
   std::vector<model::JointId> moved() const;
 };
 
 /// The same settings always give the same trial. Throws std::runtime_error: there is no such skill, or the
-/// monitor log cannot be written.
+/// monitor log cannot be created.
 SkillTrial playSkill(const SkillTrialSettings& settings);
 
 }  // namespace nonet::lab

@@ -83,12 +83,21 @@ class MonitorLog {
   MonitorLog(const Simulation& simulation, const std::string& path, int cyclesPerMessage = 10);
   /// Call once after every cycle.
   void cycle();
+  /// Ends the file; nothing is written after that. The destructor does the same, but cannot tell of an error.
+  void close();
+
+  /// A full disk must not end a match: after an error nothing more is written, and error() says why.
+  bool failed() const { return !error_.empty(); }
+  const std::string& error() const { return error_; }
 
  private:
   void write(std::string_view text);
   void flush();
+  void noticeError();
 
   MonitorStream stream_;
+  std::string path_;
+  std::string error_;
   std::variant<std::ofstream, std::unique_ptr<protocol::CompressedFile>> file_;
   int cyclesPerMessage_ = 10;
   int cyclesToNext_ = 0;

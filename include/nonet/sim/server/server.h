@@ -69,6 +69,8 @@ class Server {
   };
   /// Not while another thread is in run().
   Statistics statistics() const;
+  /// After run(): why the monitor log is not whole, with its name; empty if it is, or none was asked for.
+  std::string recordingError() const;
 
   struct Implementation;
 
