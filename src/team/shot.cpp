@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/team/ball_play.h"
 #include "nonet/team/play_time.h"
@@ -12,6 +13,7 @@ namespace nonet::team {
 namespace {
 
 constexpr int kPlacesAside = 3;  // in the goal, on either side of the middle
+constexpr double kSame = 0.2;    // rad, between directions of one shot
 
 // The probability that the ball crosses the line fast, between the posts and below the bar.
 double scores(const world::WorldState& world, const motion::KickHead& kick, const Vector2& way,
@@ -24,7 +26,7 @@ double scores(const world::WorldState& world, const motion::KickHead& kick, cons
 }  // namespace
 
 std::optional<Shot> bestShot(const world::WorldState& world, std::span<const motion::KickOption> kicks,
-                             const ShotParameters& p) {
+                             const ShotParameters& p, const std::optional<double>& present) {
   const Vector2 ball = world.ball.p_FB.head<2>();
   const Vector2 goal = world.field.theirGoal();
   if ((goal - ball).norm() > p.distance) return std::nullopt;
@@ -34,15 +36,17 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   std::pair<bool, double> most{false, 0.0};
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
+    const bool keeps = present && std::abs(angleDifference(*present, directionOf(place - ball))) < kSame;
+    const double share = keeps ? p.keep : 1.0;
     for (const motion::KickOption& kick : kicks) {
       if (kick.foot != model::Side::Left || !kick.head.isStraight() || !kick.head.hasRoom(nearest)) continue;
       const double hits = scores(world, kick.head, place - ball, p);
-      if (hits < p.hits) continue;
+      if (hits < share * p.hits) continue;
       const double lane = laneWidth(world, ball, place, p.widest, kick.head);
       // A chip, which is slower and goes less far, and a kick that takes more time to be exact, only where no
       // other kick serves.
       const std::pair rated{!kick.head.onlyByName(), hits * lane};
-      if (lane < p.lane || rated <= most) continue;
+      if (lane < share * p.lane || rated <= most) continue;
       most = rated;
       // A kick that goes as far as it is asked to is asked for all.
       const Vector2 asked = ball + kick.head.longest * (place - ball).normalized();

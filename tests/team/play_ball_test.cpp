@@ -189,6 +189,38 @@ TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
   EXPECT_TRUE(shoots(10.0, {12.0, 0.0}, high)) << "it flies over them";
 }
 
+// Behind a ball before the goal, with a gap between two opponents, who was asked for this kick before.
+bool shootsThrough(double gap, double behind, const motion::MotionRequest& before) {
+  constexpr double kBall = 10.0;
+  Scene scene;
+  scene.stand(Pose2(kBall - behind, 0.0, 0.0));
+  scene.putBall({kBall, 0.0});
+  Scene::put(scene.world.opponents[4], Pose2(kBall + 1.2, 0.5 * gap, kPi));
+  Scene::put(scene.world.opponents[5], Pose2(kBall + 1.2, -0.5 * gap, kPi));
+  scene.motion.request = before;
+  Situation situation = assess(scene.world, scene.parameters, scene.motion);
+  situation.play = playTowards(situation, scene.world.field.theirGoal(), KickUse::IfFree);
+  return shoot(situation).has_value();
+}
+
+// Opponents come nearer while the robot takes its last steps.
+TEST(PlayBall, AShotUnderWayGoesOnThroughAGapThatCloses) {
+  motion::KickTo straight;
+  straight.ball = {0.25, 0.0};
+  straight.target = {5.25, 0.0};
+  motion::KickTo aside = straight;
+  aside.target = straight.ball + 5.0 * unitVector(0.6);
+  motion::KickTo pass = straight;
+  pass.stops = true;
+  EXPECT_TRUE(shootsThrough(0.6, 0.25, motion::Stand{}));
+  EXPECT_FALSE(shootsThrough(0.4, 0.25, motion::Stand{}));
+  EXPECT_TRUE(shootsThrough(0.4, 0.25, straight));
+  EXPECT_FALSE(shootsThrough(0.3, 0.25, straight)) << "there are limits";
+  EXPECT_FALSE(shootsThrough(0.4, 0.4, straight)) << "it is still some steps from the ball";
+  EXPECT_FALSE(shootsThrough(0.4, 0.25, aside)) << "another kick";
+  EXPECT_FALSE(shootsThrough(0.4, 0.25, pass)) << "another kick";
+}
+
 // An opponent straight ahead leaves both sides alike; who has begun to pass it on one side goes on there,
 // until the other one is better by more than `keep`.
 TEST(PlayBall, GoesAroundAnOpponentOnTheSideWhereItBegan) {

@@ -158,6 +158,8 @@ struct ShotParameters {
   double reach = 0.85;
   double postMargin = 0.15;
   double low = 3.5;
+  double keep = 0.7;
+  double keepWithin = 0.3;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -196,6 +198,15 @@ struct ShotParameters {
            search(0, 5),
            "From this near also with soft kicks, that stay below the bar; 0: never"},
           self.low);
+    visit(
+        {"keep",
+         Unit::None,
+         {0, 1},
+         search(0.4, 1.0),
+         "A shot under way goes on with this share of `lane` and `hits`: who gives it up runs into somebody"},
+        self.keep);
+    visit({"keepWithin", Unit::Metre, {0, 3}, fixed, "It does so with the ball nearer than this"},
+          self.keepWithin);
   }
 };
 

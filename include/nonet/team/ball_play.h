@@ -76,12 +76,13 @@ double laneWidth(const world::WorldState& world, const Vector2& from, const Vect
                  const motion::KickHead& kick = {});
 
 /// The place in the goal, and the kick for it, that most likely ends there. Nothing if none may: too far, too
-/// near for the ball to be low again, somebody in the way.
+/// near for the ball to be low again, somebody in the way. `present`: where the shot under way goes, rad, own
+/// field frame; thereabouts less is asked for.
 struct Shot {
   Vector2 p_FTarget = Vector2::Zero();
   std::string_view kick;
 };
 std::optional<Shot> bestShot(const world::WorldState& world, std::span<const motion::KickOption> kicks,
-                             const ShotParameters& parameters);
+                             const ShotParameters& parameters, const std::optional<double>& present = {});
 
 }  // namespace nonet::team

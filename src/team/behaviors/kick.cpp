@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
@@ -94,6 +95,13 @@ bool isThere(const Situation& s) {
   return s.motion.kickInPlace() && !goesAside(s, s.motion.kick.name);
 }
 
+// Where the ball at the feet is about to be kicked, to be stopped by nobody: rad, own field frame.
+std::optional<double> shotUnderWay(const Situation& s) {
+  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
+  const bool near = s.play->ball.norm() < s.parameters.shot.keepWithin;
+  return near && kick != nullptr && !kick->stops ? presentKick(s) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Action> shoot(const Situation& s) {
@@ -101,7 +109,7 @@ std::optional<Action> shoot(const Situation& s) {
   if (!s.play || !s.mayScore || s.phase() != world::Phase::PlayOn) return std::nullopt;
   const bool there = isThere(s);
   if (!canKick(s, there, p.room)) return std::nullopt;
-  const std::optional<Shot> shot = bestShot(s.world, s.motion.kicks, p);
+  const std::optional<Shot> shot = bestShot(s.world, s.motion.kicks, p, shotUnderWay(s));
   if (!shot) return std::nullopt;
   BallPlay play = playTowards(s, shot->p_FTarget, s.play->use);
   play.kick = shot->kick;
