@@ -26,16 +26,16 @@ usage() {
   exit 2
 }
 
-# The given one, the installed one, the release build, or a new release build.
+# The given one; of an installation its own; in a source tree the release build, or a new one.
 findBinary() {
   binary=${NONET_BINARY:-}
   if [ -n "$binary" ]; then
     [ -x "$binary" ] || fail "NONET_BINARY $binary: there is no program"
     return
   fi
-  for binary in "$root/../../bin/nonet" "$root/build/release/nonet"; do
-    [ ! -x "$binary" ] || return 0
-  done
+  binary=$root/build/release/nonet
+  [ -f "$root/CMakeLists.txt" ] || binary=$root/../../bin/nonet
+  [ ! -x "$binary" ] || return 0
   [ -x "$root/scripts/build.sh" ] || fail "there is no program nonet: set NONET_BINARY"
   "$root/scripts/build.sh" release nonet >&2
   binary=$root/build/release/nonet

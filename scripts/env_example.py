@@ -7,7 +7,7 @@
 `nonet_env.VectorEnv` is all that a learner needs (scripts/nonet_env.py). What learns here is small on purpose: the
 cross-entropy method on a linear policy. Every environment of the batch tries weights of its own, drawn around a mean;
 mean and spread move to those of the best quarter. The policy sees the clock of a stride and, of what the environment
-shows, the numbers in SEEN."""
+shows, the numbers of seen_of()."""
 import argparse
 import math
 import random
@@ -16,8 +16,15 @@ import sys
 import nonet_env
 
 STRIDE = 0.4  # s, of the clock
-SEEN = {"run": [44, 45], "dribble": [0, 1, 4, 5], "receive": [0, 1, 2, 3]}  # lean; ball and where to; ball, its speed
+TASKS = ("dribble", "receive", "run")
 GAIN = 0.3    # of an action, for a weight of 1
+
+
+def seen_of(env):
+    """The observations that the policy sees."""
+    if env.task == "run":  # the lean, behind angle and speed of each joint
+        return [2 * env.action_size, 2 * env.action_size + 1]
+    return {"dribble": [0, 1, 4, 5], "receive": [0, 1, 2, 3]}[env.task]  # ball and where to; ball, its speed
 
 
 def features(observation, seen, time):
@@ -53,7 +60,7 @@ def returns(env, policies, seen, steps, seed):
 def learn(env, generations, steps, seed, report=print):
     """The mean return of each generation."""
     draw = random.Random(seed)
-    seen = SEEN[env.task]
+    seen = seen_of(env)
     size = env.action_size * (3 + len(seen))
     mean, spread, history = [0.0] * size, [0.3] * size, []
     for generation in range(generations):
@@ -90,18 +97,26 @@ class _Toy:
         return self._show(), rewards, never, never, {}
 
 
+class _Runner:
+    task = "run"
+
+    def __init__(self, joints):
+        self.action_size = joints
+
+
 def self_test():
+    assert [seen_of(_Runner(joints)) for joints in (22, 24)] == [[44, 45], [48, 49]]
     history = learn(_Toy(), 60, 20, 1, lambda text: None)
     assert history[0] < -1.0, history[0]
     assert history[-1] > history[0] / 10, history
-    still = returns(_Toy(), [[0.0] * 14] * 60, SEEN["receive"], 20, 7)
+    still = returns(_Toy(), [[0.0] * 14] * 60, seen_of(_Toy()), 20, 7)
     assert max(still) < -0.4 and min(still) == max(still), still
     print(f"env_example: the policy is found ({history[0]:.2f} to {history[-1]:.2f})")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("task", nargs="?", default="run", choices=sorted(SEEN))
+    parser.add_argument("task", nargs="?", default="run", choices=TASKS)
     parser.add_argument("--type", type=int, default=0, help="robot type")
     parser.add_argument("--envs", type=int, default=48)
     parser.add_argument("--steps", type=int, default=100, help="of an episode, at most")

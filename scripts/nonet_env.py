@@ -21,6 +21,7 @@ import argparse
 import array
 import ctypes
 import json
+import operator
 import os
 import pathlib
 import random
@@ -38,7 +39,23 @@ NAME = "libnonet_env.so"
 
 
 class Error(Exception):
-    """What the library has refused, in its words."""
+    """What the library has refused, in its words, or what it cannot even be asked for."""
+
+
+def _whole(name, value, low, high):
+    """The number, which ctypes would cut to its low bits if it were too large."""
+    number = operator.index(value)
+    if not low <= number <= high:
+        raise Error(f"{name} must be {low} to {high}, not {number}")
+    return number
+
+
+def _int32(name, value):
+    return _whole(name, value, -2 ** 31, 2 ** 31 - 1)
+
+
+def _seed(value):
+    return _whole("seed", value, 0, 2 ** 64 - 1)
 
 
 class _Options(ctypes.Structure):
@@ -122,14 +139,15 @@ class _Floats:
         """From an array of numpy, rows of numbers, or all numbers in one row."""
         if numpy is not None and isinstance(matrix, numpy.ndarray):
             flat = numpy.ascontiguousarray(matrix, dtype=numpy.float32)
-            self._check(flat.size)
+            self._check(flat.size, flat.ndim == 1 or flat.shape == (self.rows, self.columns))
             ctypes.memmove(self.values, flat.ctypes.data, 4 * self.count)
             return
-        rows = list(matrix)
-        if rows and hasattr(rows[0], "__len__"):
-            rows = [number for row in rows for number in row]
-        self._check(len(rows))
-        ctypes.memmove(self.values, array.array("f", rows).tobytes(), 4 * self.count)
+        numbers, fits = list(matrix), True
+        if numbers and hasattr(numbers[0], "__len__"):
+            fits = [len(row) for row in numbers] == [self.columns] * self.rows
+            numbers = [number for row in numbers for number in row]
+        self._check(len(numbers), fits)
+        ctypes.memmove(self.values, array.array("f", numbers).tobytes(), 4 * self.count)
 
     def get(self):
         if numpy is not None:
@@ -140,9 +158,10 @@ class _Floats:
     def vector(self):
         return self.get().reshape(self.rows) if numpy is not None else list(self.values)
 
-    def _check(self, count):
-        if count != self.count:
-            raise ValueError(f"{count} numbers given, {self.rows} x {self.columns} needed")
+    def _check(self, count, fits):
+        if count != self.count or not fits:
+            raise ValueError(f"{count} numbers{'' if fits else ' in other rows'} given, "
+                             f"{self.rows} x {self.columns} needed")
 
 
 def _flags(values):
@@ -161,8 +180,9 @@ class VectorEnv:
         self._library = load(library)
         options = _Options()
         self._call("default_options", options)
-        options.task, options.seed, options.envs, options.threads = task.encode(), seed, envs, threads
-        options.robot_type, options.quick = robot_type, int(quick)
+        options.task, options.seed = task.encode(), _seed(seed)
+        options.envs, options.threads = _int32("envs", envs), _int32("threads", threads)
+        options.robot_type, options.quick = _int32("robot_type", robot_type), int(bool(quick))
         options.data_folder = os.fsencode(data_folder) if data_folder else None
         options.parameters = (ctypes.c_char_p * len(parameters))(*(text.encode() for text in parameters))
         options.parameter_count = len(parameters)
@@ -191,7 +211,8 @@ class VectorEnv:
             raise Error("this batch is closed")
         if seed is None:
             seed = self._seed
-        self._seed = seed + 1
+        seed = _seed(seed)
+        self._seed = (seed + 1) % 2 ** 64
         self._call("reset", self._handle, seed, self._observations.values, self._observations.count)
         return self._observations.get(), {}
 
@@ -334,13 +355,25 @@ def _test_without_library():
         floats.put(matrix)
         assert list(floats.values) == [1, 2, 3, 4, 5, 6]
     assert [list(row) for row in floats.get()] == [[1, 2, 3], [4, 5, 6]]
-    for wrong in ([1, 2], [[1, 2, 3]], [], [[1, 2, 3], [4, 5]]):
+    wrongs = [[1, 2], [[1, 2, 3]], [], [[1, 2, 3], [4, 5]], [[1, 2], [3, 4], [5, 6]], [[1, 2, 3, 4], [5, 6]]]
+    if numpy is not None:
+        floats.put(numpy.array([[1, 2, 3], [4, 5, 6]]))
+        wrongs += [numpy.ones((3, 2)), numpy.ones((1, 6)), numpy.ones(5)]
+    for wrong in wrongs:
         try:
             floats.put(wrong)
         except ValueError as trouble:
             assert "2 x 3 needed" in str(trouble)
         else:
             raise AssertionError(f"{wrong} was taken")
+    assert (_int32("envs", 3), _int32("envs", -1), _seed(2 ** 64 - 1)) == (3, -1, 2 ** 64 - 1)
+    for check in (lambda: _int32("envs", 2 ** 32 + 1), lambda: _seed(-1), lambda: _seed(2 ** 64)):
+        try:
+            check()
+        except Error as trouble:
+            assert "must be" in str(trouble)
+        else:
+            raise AssertionError("a number was taken that ctypes cuts")
     try:
         load("/none/" + NAME)
     except Error as trouble:
@@ -352,7 +385,8 @@ def _test_without_library():
 def _test_library():
     assert {"run", "dribble", "receive"} <= set(tasks())
     for wrong, word in (({"task": "fly"}, "dribble"), ({"envs": 0}, "envs"), ({"data_folder": "/none"}, "/none"),
-                        ({"parameters": ["no.such=1"]}, "no.such")):
+                        ({"parameters": ["no.such=1"]}, "no.such"), ({"envs": 2 ** 32 + 1}, "envs"),
+                        ({"seed": -1}, "seed")):
         try:
             VectorEnv(**{"task": "run", **wrong})
         except Error as trouble:

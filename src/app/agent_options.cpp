@@ -8,7 +8,10 @@ void addAgentOptions(CLI::App& command, agent::AgentChoice& choice, std::string&
   command.add_option("--type", choice.robotType, "Robot type")
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
-  command.add_option("--params", choice.parameterFiles, "Parameter files, overlaid in this order")
+  command
+      .add_option("--params", choice.parameterFiles,
+                  "A parameter file; given again, the later one lies over the earlier")
+      ->allow_extra_args(false)
       ->check(CLI::ExistingFile);
   command
       .add_option("--set", choice.assignments,

@@ -386,8 +386,15 @@ void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
                    "Quick physics: the same equations, five times faster, not to the last bit");
   command.add_flag("--racing", settings.racing, "The worse half of a generation gets half of the trials");
   command.add_option("--restarts", arguments.restarts, "none, ipop or bipop")->capture_default_str();
-  command.add_option("--keys", settings.keys, "Prefixes of the parameters to move; default: the task's");
-  command.add_option("--params", arguments.parameterFiles, "Parameter files where the search starts")
+  command
+      .add_option("--keys", settings.keys,
+                  "A prefix of the parameters to move, as often as there are some; default: the task's")
+      ->allow_extra_args(false);
+  command
+      .add_option(
+          "--params", arguments.parameterFiles,
+          "A parameter file where the search starts; given again, the later one lies over the earlier")
+      ->allow_extra_args(false)
       ->check(CLI::ExistingFile);
   command.add_option("--seed", settings.seed, "Decides every random number of the run")
       ->capture_default_str();

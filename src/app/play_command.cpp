@@ -82,7 +82,10 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
                    "frees servers that hang before their first message")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
-  command->add_option("--params", choice.parameterFiles, "Parameter files, overlaid in this order")
+  command
+      ->add_option("--params", choice.parameterFiles,
+                   "A parameter file; given again, the later one lies over the earlier")
+      ->allow_extra_args(false)
       ->check(CLI::ExistingFile);
   command
       ->add_option("--set", choice.assignments,

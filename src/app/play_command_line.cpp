@@ -8,15 +8,10 @@
 #include <fmt/format.h>
 
 #include "nonet/app/data_folder.h"
+#include "nonet/app/shell_word.h"
 
 namespace nonet::app {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string safe = "'";
-  for (const char letter : text) safe += letter == '\'' ? std::string(R"('\'')") : std::string(1, letter);
-  return safe + "'";
-}
 
 std::string helpOf(const std::string& executable) {
   const std::string line = quoted(executable) + " play --help 2>/dev/null </dev/null";

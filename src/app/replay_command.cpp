@@ -156,9 +156,10 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->add_option("--team", settings.team, "Foreign logs: its team");
   command->add_option("--type", settings.robotType, "Foreign logs: its type")->check(CLI::Range(0, 4));
   command
-      ->add_option(
-          "--params", settings.parameterFiles,
-          "Parameter files, overlaid in this order on those of the type (foreign logs) or of the header")
+      ->add_option("--params", settings.parameterFiles,
+                   "A parameter file over those of the type (foreign logs) or of the header; given again, "
+                   "the later one lies over the earlier")
+      ->allow_extra_args(false)
       ->check(CLI::ExistingFile);
   command
       ->add_option("--set", settings.assignments,

@@ -14,7 +14,7 @@ namespace nonet::app {
 namespace {
 
 constexpr std::size_t kMaxPacket = 512;  // bytes
-constexpr std::size_t kMaxText = 100;    // bytes of a name or text, far below the packet
+constexpr std::size_t kMaxText = 100;    // bytes of a name, far below the packet
 constexpr int kStepsPerPicture = 5;
 
 constexpr RobovizColor kBlue = {70, 150, 255};
@@ -133,15 +133,6 @@ void robovizSphere(std::string& bytes, const Vector3& center, double radius, con
   putPlace(bytes, center);
   putNumber(bytes, radius);
   putColor(bytes, color);
-  putText(bytes, set);
-}
-
-void robovizAnnotation(std::string& bytes, const Vector3& at, const RobovizColor& color,
-                       std::string_view text, std::string_view set) {
-  putKind(bytes, 2, 0);
-  putPlace(bytes, at);
-  putColor(bytes, color);
-  putText(bytes, text);
   putText(bytes, set);
 }
 

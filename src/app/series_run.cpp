@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "nonet/app/series_games.h"
+#include "nonet/app/shell_word.h"
 #include "nonet/app/stop_signal.h"
 #include "nonet/app/version.h"
 
@@ -54,10 +55,7 @@ SeriesRun playSeries(lab::SeriesSettings settings, const std::string& folder, in
 std::string commandLine() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string text;
-  for (std::string word; std::getline(file, word, '\0');) {
-    const bool plain = word.find_first_of(" '\"$&|;<>(){}*") == std::string::npos && !word.empty();
-    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
-  }
+  for (std::string word; std::getline(file, word, '\0');) text += (text.empty() ? "" : " ") + shellWord(word);
   return text;
 }
 

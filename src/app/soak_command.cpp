@@ -114,6 +114,7 @@ int runSoak(SoakArguments& arguments) {
   Console console(arguments.json ? stderr : stdout);
   if (arguments.effectorMinutes > 0.0) return runEffectors(arguments, console);
   lab::makeFolder(arguments.out);
+  const std::shared_ptr<void> lock = lab::lockFolder(arguments.out);
   return arguments.harm ? runFaults(arguments, console) : runMatches(arguments, console);
 }
 

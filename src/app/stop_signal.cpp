@@ -9,17 +9,18 @@ namespace {
 
 std::atomic<bool> signalled{false};
 
-void remember(int /*signal*/) {
-  signalled = true;
-}
-
-// With SA_RESETHAND the second signal finds the default again. No SA_RESTART: what waits is to wake up.
+// No SA_RESTART: what waits is to wake up.
 void handle(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+}
+
+// The second signal finds the default again, whichever of the two it is; SA_RESETHAND resets only its own.
+void remember(int /*signal*/) {
+  signalled = true;
+  handle(SIG_DFL);
 }
 
 }  // namespace

@@ -1,19 +1,21 @@
 #include "nonet/app/tcp_match.h"
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <stop_token>
+#include <system_error>
 #include <thread>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include "nonet/app/agent_processes.h"
 #include "nonet/app/play_client.h"
@@ -64,8 +66,11 @@ class LoggerGuard {
 /// A folder for the agents' reports, removed at the end.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("nonet-match-{}", ::getpid())) {
-    fs::create_directories(path_);
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "nonet-match-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw std::system_error(errno, std::generic_category(), "cannot make the folder " + name);
+    path_ = name;
   }
   ~TemporaryFolder() {
     std::error_code ignored;

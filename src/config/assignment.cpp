@@ -33,11 +33,11 @@ void assignText(const std::vector<Field>& fields, std::string_view assignment) {
     throw ParameterError(
         fmt::format("{}unknown parameter '{}': did you mean '{}'?", where, key, nearestName(fields, key)));
   }
-  if (field->boolean != nullptr && (text == "true" || text == "false")) {
-    return assign(*field, text == "true" ? 1.0 : 0.0, where);
+  if (field->text != nullptr) {
+    *field->text = text;
+    return;
   }
-  std::optional<double> value = parseQuantity(text, Unit::None);
-  if (!value) value = parseQuantity(text, field->declaration.unit);
+  const std::optional<double> value = numberFrom(*field, text);
   if (!value) throw ParameterError(where + wantedForm(*field));
   assign(*field, *value, where);
 }

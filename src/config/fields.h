@@ -1,6 +1,7 @@
 // Shared by the writer (parameters.cpp) and the reader (parameter_files.cpp) of parameters.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,10 @@ double valueOf(const Field& field);
 
 /// Stores a value after checking its range; ParameterError that begins with `where` ("file:line: ").
 void assign(const Field& field, double value, const std::string& where);
+
+/// What `text` means for this field: a word of a switch, a number in the declared unit, or one with a unit of
+/// its own. Nothing for other texts.
+std::optional<double> numberFrom(const Field& field, std::string_view text);
 
 /// Shortest text that reads back to the same bits, as a TOML real.
 std::string realText(double value);

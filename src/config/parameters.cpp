@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -61,28 +60,12 @@ void appendField(const Field& field, std::string& toml) {
   toml += fmt::format("\n{} = {}\n", lastPart(field.key), tomlValue(field));
 }
 
-bool sameValue(const Field& a, const Field& b) {
-  if (a.text != nullptr) return *a.text == *b.text;
-  return std::bit_cast<std::uint64_t>(valueOf(a)) == std::bit_cast<std::uint64_t>(valueOf(b));
-}
-
-std::optional<bool> switchFrom(std::string_view text) {
-  if (text == "true" || text == "1" || text == "on") return true;
-  if (text == "false" || text == "0" || text == "off") return false;
-  return std::nullopt;
-}
-
-/// A number in the declared unit, or one with a unit of its own.
-double numberFrom(const Field& field, std::string_view text) {
+std::string notANumber(const Field& field, std::string_view text) {
   const Unit unit = field.declaration.unit;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return value;
-  if (const auto quantity = parseQuantity(text, unit)) return *quantity;
   const std::string units =
       unit == Unit::None ? ""
                          : fmt::format(" in {}, or one with a unit: {}", unitName(unit), acceptedUnits(unit));
-  throw ParameterError(fmt::format("{} = '{}' is not a number: use one{}", field.key, text, units));
+  return fmt::format("{} = '{}' is not a number: use one{}", field.key, text, units);
 }
 
 const Field& fieldNamed(const std::vector<Field>& fields, std::string_view key) {
@@ -99,6 +82,20 @@ double valueOf(const Field& field) {
   if (field.boolean != nullptr) return *field.boolean ? 1.0 : 0.0;
   if (field.integer != nullptr) return *field.integer;
   return field.real != nullptr ? *field.real : 0.0;
+}
+
+bool sameValue(const Field& a, const Field& b) {
+  if (a.text != nullptr) return *a.text == *b.text;
+  return std::bit_cast<std::uint64_t>(valueOf(a)) == std::bit_cast<std::uint64_t>(valueOf(b));
+}
+
+std::optional<double> numberFrom(const Field& field, std::string_view text) {
+  if (field.boolean != nullptr) {
+    if (text == "true" || text == "on") return 1.0;
+    if (text == "false" || text == "off") return 0.0;
+  }
+  if (const auto plain = parseQuantity(text, Unit::None)) return plain;
+  return parseQuantity(text, field.declaration.unit);
 }
 
 std::string valueText(const Field& field) {
@@ -208,13 +205,13 @@ void setText(const std::vector<Field>& fields, std::string_view key, std::string
   const Field& field = fieldNamed(fields, key);
   if (field.text != nullptr) {
     *field.text = text;
-  } else if (field.boolean != nullptr) {
-    const std::optional<bool> on = switchFrom(text);
-    if (!on) throw ParameterError(fmt::format("{} = '{}' is neither true nor false", key, text));
-    *field.boolean = *on;
-  } else {
-    assign(field, numberFrom(field, text), "");
+    return;
   }
+  const std::optional<double> value = numberFrom(field, text);
+  if (field.boolean != nullptr && value != 0.0 && value != 1.0)
+    throw ParameterError(fmt::format("{} = '{}' is neither true nor false", key, text));
+  if (!value) throw ParameterError(notANumber(field, text));
+  assign(field, *value, "");
 }
 
 std::string toToml(const std::vector<Field>& fields, const std::vector<Field>* unlessEqualTo) {

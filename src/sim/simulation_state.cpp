@@ -80,6 +80,10 @@ void Simulation::restore(std::span<const std::uint8_t> state) {
   takeAll(state, world);
   self.world.restore(world);
   takeAll(state, self.players);
+  for (const Player& player : self.players) {
+    if (std::ranges::count(self.world.robots(), player.robot) == 0)
+      throw std::runtime_error("saved simulation state is damaged");
+  }
   self.referee.restore(state);
   Random::State random{};
   take(state, random);
@@ -103,6 +107,7 @@ void Simulation::restore(std::span<const std::uint8_t> state) {
     takePercept(state, agent->sent);
     self.agents.push_back(std::move(agent));
   }
+  if (!state.empty()) throw std::runtime_error("saved simulation state: data after its end");
   // Monitors that watch see another scene: the version must be none that they know.
   self.sceneVersion = std::max(self.sceneVersion, savedVersion) + 1;
   self.updateMatch();

@@ -77,5 +77,17 @@ TEST(Alarm, NeverRingsOnceDestroyed) {
   EXPECT_EQ(rings, 0);
 }
 
+// More nanoseconds than the clock can count are no reason to ring at once.
+TEST(Alarm, RingsNotSoonForATimeBeyondTheClock) {
+  for (const double seconds : {1e10, 1e300}) {
+    asio::io_context io;
+    Alarm alarm(io);
+    int rings = 0;
+    alarm.set(seconds, [&] { ++rings; });
+    io.run_for(20ms);
+    EXPECT_EQ(rings, 0) << seconds;
+  }
+}
+
 }  // namespace
 }  // namespace nonet::app

@@ -294,6 +294,24 @@ TEST(CommandLine, WhatCannotBeMeantIsRefused) {
   }
 }
 
+// A file of parameters is one word: what stands behind it is not another file.
+TEST(CommandLine, WhatStandsBehindParametersIsNoFile) {
+  const TestFolder folder("nonet_behind_params");
+  const std::string file = folder.file("mine.toml");
+  std::ofstream(file) << "[team.ball]\nkick = false\n";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"env", "--params", file, "fly"}, "unknown environment 'fly'"},
+      {{"optimize", "--out", folder.file("run"), "--params", file, "fly"}, "unknown task 'fly'"},
+      {{"optimize", "--out", folder.file("run"), "--keys", "team.", "fly"}, "unknown task 'fly'"},
+      {{"replay", "--params", file, folder.file("none.zst")}, "none.zst"}};
+  for (const auto& [arguments, words] : cases) {
+    Program program(arguments, folder.file("said.txt"));
+    EXPECT_NE(program.wait(), 0) << arguments[0];
+    EXPECT_THAT(program.output(), HasSubstr(words));
+    EXPECT_THAT(program.output(), testing::Not(HasSubstr("--params"))) << arguments[0];
+  }
+}
+
 // What is short waits in a buffer until the program ends.
 TEST(CommandLine, OutputThatFindsNoRoomIsTold) {
   const TestFolder folder("nonet_full_output");

@@ -34,9 +34,6 @@ TEST(Roboviz, CommandsByteByByte) {
   robovizSphere(bytes, {1, 2, 3}, 0.042, kColor, "s");
   EXPECT_EQ(bytes, "\x01\x03"s + "1.0000" + "2.0000" + "3.0000" + "0.0420" + "\xff\x00\x10"s + "s\0"s);
   bytes.clear();
-  robovizAnnotation(bytes, {0, 0, 1}, kColor, "hello", "t");
-  EXPECT_EQ(bytes, "\x02\x00"s + "0.0000" + "0.0000" + "1.0000" + "\xff\x00\x10"s + "hello\0t\0"s);
-  bytes.clear();
   robovizSwap(bytes, "nonet.");
   EXPECT_EQ(bytes, "\x00\x00nonet.\0"s);
 }

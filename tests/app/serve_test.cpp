@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <regex>
 #include <thread>
@@ -323,6 +324,31 @@ TEST_F(Scripts, SayWhatTheyNeed) {
   Program missing(command("startChallengePlayer.sh"), {"127.0.0.1", "3100"}, folder.file("missing.txt"));
   EXPECT_EQ(missing.wait(), 2);
   EXPECT_NE(missing.output().find("HOST PORT X Y CHALLENGE"), std::string::npos);
+}
+
+// A source tree two levels below a folder with bin/nonet is no installation.
+TEST_F(Scripts, ATreeRunsItsOwnBuildAndAnInstallationItsOwnProgram) {
+  ::unsetenv("NONET_BINARY");
+  const fs::path root = folder.file("above/share/nonet");
+  const fs::path installed = root / "../../bin/nonet";
+  const fs::path built = root / "build/release/nonet";
+  fs::create_directories(root / "scripts");
+  for (const fs::path& program : {installed, built}) {
+    fs::create_directories(program.parent_path().lexically_normal());
+    std::ofstream(program) << "#!/bin/sh\n";
+    fs::permissions(program, fs::perms::owner_all);
+  }
+  fs::copy(command("common.sh"), root / "scripts");
+  std::ofstream(root / "scripts/which.sh")
+      << ". \"$(dirname \"$0\")/common.sh\"\nfindBinary\necho \"$binary\"\n";
+  const auto found = [&] {
+    Program which("/bin/bash", {(root / "scripts/which.sh").string()}, folder.file("which.txt"));
+    EXPECT_EQ(which.wait(), 0);
+    return which.output();
+  };
+  EXPECT_EQ(found(), installed.string() + "\n");
+  std::ofstream(root / "CMakeLists.txt") << "";
+  EXPECT_EQ(found(), built.string() + "\n");
 }
 
 // Wrong arguments are told before anything is started.

@@ -1,5 +1,6 @@
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 #include "nonet/app/soak/match_soak.h"
 #include "nonet/app/soak/memory_watch.h"
 #include "nonet/app/soak/wake_watch.h"
+#include "nonet/lab/common/folder_lock.h"
 
 #include "app/program.h"
 
@@ -151,6 +153,16 @@ TEST(Soak, OtherOptionsAreAnotherSoak) {
   const auto [emptied, said] = soak("0.03");
   EXPECT_EQ(emptied, 1);
   EXPECT_NE(said.find(folder.file("out/soak.json") + " is damaged or gone"), std::string::npos) << said;
+}
+
+TEST(Soak, AFolderIsHeldByOneAtATime) {
+  const TestFolder folder("nonet_soak_lock");
+  const std::shared_ptr<void> held = lab::lockFolder(folder.file(""));
+  for (const std::string kind : {"--matches=1", "--faults"}) {
+    Program program({"soak", kind, "--players", "2", "--out", folder.file("")}, folder.file("soak.txt"));
+    EXPECT_EQ(program.wait(), 1);
+    EXPECT_THAT(program.output(), HasSubstr("another process works on"));
+  }
 }
 
 TEST(Soak, WhoIsHarmedComesBack) {

@@ -4,7 +4,9 @@
 #include <csignal>
 #include <fstream>
 #include <regex>
+#include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <asio.hpp>
 #include <gmock/gmock.h>
@@ -12,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/app/view/http_server.h"
+#include "nonet/app/view/trace_folder.h"
 #include "nonet/app/view/track.h"
 #include "nonet/app/view/web_files.h"
 #include "nonet/math/random.h"
@@ -162,6 +165,50 @@ TEST(HttpRequest, OnlyBrowsersOfThisMachineGetAnAnswer) {
   EXPECT_EQ(refusal.status, 405);
 }
 
+// The head of a page on this port, and more of it perhaps.
+std::string headOfPage(int port, const std::string& path) {
+  asio::io_context io;
+  asio::ip::tcp::socket socket(io);
+  socket.connect({asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
+  asio::write(socket, asio::buffer("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
+  std::string head;
+  asio::read_until(socket, asio::dynamic_buffer(head), "\r\n\r\n");
+  return head;
+}
+
+TEST(HttpServer, TroubleWithAPageIsToldAndTheNextIsServed) {
+  asio::io_context io;
+  const HttpServer server(io, 0, [](const HttpRequest& request) -> HttpResponse {
+    if (request.path == "/torn") throw std::runtime_error("it is torn");
+    return {200, "text/plain", "whole\n"};
+  });
+  const std::jthread thread([&io] { io.run(); });
+  EXPECT_THAT(headOfPage(server.port(), "/torn"),
+              ::testing::StartsWith("HTTP/1.1 500 Internal Server Error"));
+  EXPECT_THAT(headOfPage(server.port(), "/"), ::testing::StartsWith("HTTP/1.1 200 OK"));
+  io.stop();
+}
+
+TEST(TraceFolder, LinesOfOthersAreLeftOutAndAFileThatIsGoneIsNamed) {
+  const TestFolder folder("nonet_view_traces");
+  const std::string ours = R"({"time":1.5,"game_time":0.5,"unum":3,"left":false})";
+  std::ofstream(folder.file("ours.trace")) << ours << "\n"
+                                           << R"({"time":"2","game_time":1,"unum":3,"left":false})"
+                                           << "\n"
+                                           << R"({"game_time":1,"unum":3,"left":false})"
+                                           << "\n"
+                                           << R"({"time":2,"game_time":1,"unum":"3","left":0})"
+                                           << "\n";
+  std::ofstream(folder.file("others.trace")) << R"({"time":1,"game_time":1,"unum":"4","left":1})"
+                                             << "\n";
+  const TraceFolder traces(folder.file(""));
+  EXPECT_EQ(traces.size(), 1U);
+  EXPECT_EQ(traces.cycles(13), "[" + ours + "]");
+  EXPECT_EQ(traces.cycles(3), "[]");
+  fs::remove(folder.file("ours.trace"));
+  EXPECT_THROW(traces.cycles(13), protocol::LogError);
+}
+
 // `nonet view` in the background, on a port of its own.
 class RunningView {
  public:
@@ -178,15 +225,7 @@ class RunningView {
   std::string address(const std::string& rest) const {
     return "http://localhost:" + std::to_string(port_) + rest;
   }
-  std::string get(const std::string& path) const {
-    asio::io_context io;
-    asio::ip::tcp::socket socket(io);
-    socket.connect({asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port_)});
-    asio::write(socket, asio::buffer("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n"));
-    std::string head;
-    asio::read_until(socket, asio::dynamic_buffer(head), "\r\n\r\n");
-    return head;
-  }
+  std::string get(const std::string& path) const { return headOfPage(port_, path); }
 
  private:
   Program program_;

@@ -325,6 +325,27 @@ TEST(Parameters, AssignmentsTakeEveryFormOfAValue) {
   EXPECT_EQ(example.speed, -0.5);
   assignParameter(example, "arms=1");
   EXPECT_TRUE(example.arms);
+  assignParameter(example, "arms=off");
+  EXPECT_FALSE(example.arms);
+}
+
+// The two ways to set a value from a command line read the same things.
+TEST(Parameters, AssignmentsAndTextsAreReadAlike) {
+  for (const auto& [key, text] : std::vector<std::pair<const char*, const char*>>{{"gain", "+0.2"},
+                                                                                  {"speed", "-0.5"},
+                                                                                  {"period", "+40 ms"},
+                                                                                  {"swing.angle", "17deg"},
+                                                                                  {"steps", "4"},
+                                                                                  {"arms", "off"},
+                                                                                  {"arms", "0"},
+                                                                                  {"arms", "false"}}) {
+    Example assigned;
+    Example set;
+    assignParameter(assigned, std::string(key) + "=" + text);
+    setParameterText(set, key, text);
+    EXPECT_EQ(toToml(assigned), toToml(set)) << key << " " << text;
+    EXPECT_NE(toToml(set), toToml(Example{})) << key << " " << text;
+  }
 }
 
 TEST(Parameters, WrongAssignmentsSayWhatToWrite) {

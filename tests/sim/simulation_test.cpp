@@ -488,6 +488,9 @@ TEST(State, RestoringContinuesBitExactly) {
   }
   EXPECT_THROW(copy.restore(std::span(state).first(state.size() / 2)), std::runtime_error);
   EXPECT_THROW(copy.restore({}), std::runtime_error);
+  std::vector<std::uint8_t> longer = state;
+  longer.push_back(0);
+  EXPECT_THROW(copy.restore(longer), std::runtime_error);
 }
 
 // Plays a few seconds with whole teams that arrive in the given order, and returns everything they sense.

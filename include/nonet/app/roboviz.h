@@ -26,13 +26,11 @@ void robovizPoint(std::string& bytes, const Vector3& at, double size, const Robo
                   std::string_view set);
 void robovizSphere(std::string& bytes, const Vector3& center, double radius, const RobovizColor& color,
                    std::string_view set);
-void robovizAnnotation(std::string& bytes, const Vector3& at, const RobovizColor& color,
-                       std::string_view text, std::string_view set);
 /// Shows all sets whose name begins with `prefix`, and drops what they showed before.
 void robovizSwap(std::string& bytes, std::string_view prefix);
 
-/// The picture of one agent, one command per element. The sets are nonet.left.5.pose, .ball,
-/// .target, .path, .pass and .players.
+/// The picture of one agent, one command per element. The sets are nonet.left.5.pose, .particles,
+/// .ball, .target, .path, .pass and .players.
 std::vector<std::string> robovizPicture(const agent::Agent& agent);
 
 /// Commands put together in packets of at most 512 bytes, in their order.

@@ -19,8 +19,8 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// A switch takes true, false, 1 or 0; other values are numbers in SI units, or carry a unit. ParameterError
-/// begins with the text.
+/// A switch takes true, false, on, off, 1 or 0; other values are numbers in SI units, or carry a unit, or are
+/// texts. ParameterError begins with the text.
 template <class Parameters>
 void assignParameter(Parameters& parameters, std::string_view assignment) {
   detail::assignText(fieldsOf(parameters), assignment);

@@ -1,9 +1,7 @@
 // Which file says what: the values of parameters with the place that each comes from.
 #pragma once
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -21,13 +19,8 @@ inline void disturb(const std::vector<Field>& fields) {
       *field.real = std::nextafter(*field.real, std::numeric_limits<double>::infinity());
     if (field.integer != nullptr) *field.integer ^= 1;
     if (field.boolean != nullptr) *field.boolean = !*field.boolean;
+    if (field.text != nullptr) *field.text += '?';
   }
-}
-
-inline bool sameValue(const Field& a, const Field& b) {
-  if (a.real != nullptr)
-    return std::bit_cast<std::uint64_t>(*a.real) == std::bit_cast<std::uint64_t>(*b.real);
-  return a.integer != nullptr ? *a.integer == *b.integer : *a.boolean == *b.boolean;
 }
 
 }  // namespace detail

@@ -112,6 +112,8 @@ class Collector {
   std::string prefix_;
 };
 
+/// To the last bit.
+bool sameValue(const Field& a, const Field& b);
 std::vector<ParameterView> views(const std::vector<Field>& fields);
 void overlayFile(const std::vector<Field>& fields, const std::string& path);
 void overlayText(const std::vector<Field>& fields, std::string_view toml, const std::string& nameForErrors);

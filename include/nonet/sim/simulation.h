@@ -109,9 +109,12 @@ class Simulation {
   bool trainer(std::string_view message);
 
   // -- state
-  /// Everything: restoring it into a simulation with the same settings continues bit-exactly, agents' handles
-  /// included. Throws std::runtime_error if `state` is damaged.
+  /// Everything, if no cycle is under way (between beginCycle() and finishCycle() some commands are in
+  /// neither part): restoring it into a simulation with the same settings continues bit-exactly, agents'
+  /// handles included.
   std::vector<std::uint8_t> save() const;
+  /// Throws std::runtime_error if `state` has another format, length, count or name of a part than a saved
+  /// one; the simulation is then good for nothing but another restore(). Other damage is not noticed.
   void restore(std::span<const std::uint8_t> state);
   /// Hash of world, clock, scores and play mode, for determinism checks.
   std::uint64_t signature() const;

@@ -27,6 +27,8 @@ std::string_view statusText(int status) {
       return "Not Found";
     case 405:
       return "Method Not Allowed";
+    case 500:
+      return "Internal Server Error";
     default:
       return "Bad Request";
   }
@@ -62,7 +64,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void answer(const std::string& head) {
     HttpRequest request;
     HttpResponse response;
-    if (parseHttpRequest(head, request, response)) response = handler_(request);
+    if (parseHttpRequest(head, request, response)) response = handled(request);
     body_ = std::move(response.body);
     head_ = fmt::format(
         "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nCache-Control: no-store\r\n"
@@ -72,6 +74,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
     asio::async_write(socket_, parts, [self = shared_from_this()](std::error_code error, std::size_t) {
       if (!error) self->read();
     });
+  }
+
+  // What goes wrong with one page is that page's answer, not the end of all.
+  HttpResponse handled(const HttpRequest& request) const {
+    try {
+      return handler_(request);
+    } catch (const std::exception& trouble) {
+      return {500, "text/plain", fmt::format("{}\n", trouble.what())};
+    }
   }
 
   tcp::socket socket_;

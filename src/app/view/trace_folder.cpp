@@ -19,9 +19,15 @@ constexpr double kStep = 0.1;        // s between two cycles that are shown
 // One cycle of a trace, discarded if the line is none.
 nlohmann::json parseLine(const protocol::LogLine& line) {
   nlohmann::json json = nlohmann::json::parse(line.text, nullptr, false);
-  return json.is_object() && json.contains("game_time") && json.contains("unum") && json.contains("left")
-             ? json
-             : nlohmann::json(nlohmann::json::value_t::discarded);
+  const auto has = [&json](const char* key, auto is) {
+    const auto found = json.find(key);
+    return found != json.end() && is(*found);
+  };
+  const auto number = [](const nlohmann::json& value) { return value.is_number(); };
+  const bool whole = json.is_object() && has("game_time", number) && has("time", number) &&
+                     has("unum", [](const nlohmann::json& value) { return value.is_number_integer(); }) &&
+                     has("left", [](const nlohmann::json& value) { return value.is_boolean(); });
+  return whole ? json : nlohmann::json(nlohmann::json::value_t::discarded);
 }
 
 // The slot of the robot whose trace this file holds.

@@ -143,7 +143,7 @@ class DribbleEnv final : public BallEnv {
   double made_ = 0.0;  // m
 };
 
-// Reward at the end: 1 for a pass that is held, otherwise minus its rebound.
+// Reward at the end, also where only the time was up: 1 for a pass that is held, otherwise minus its rebound.
 class ReceiveEnv final : public BallEnv {
  public:
   using BallEnv::BallEnv;
@@ -154,10 +154,11 @@ class ReceiveEnv final : public BallEnv {
   BallScene draw(Random& random) const override { return passScene(random); }
   void begin(const BallScene& /*scene*/) override {}
   EnvStep judge() override {
-    const bool over = trial().game().time() > kLongest || !trial().playsOn();
     const ReceiveResult result = measureReceive(trial().track(), ReceiveRule{});
-    if (!result.held && !over) return {};
-    return {result.held ? 1.0 : -std::min(result.rebound, 1.0), true, false};
+    const bool over = result.held || !trial().playsOn();
+    const bool timeUp = !over && trial().game().time() > kLongest;
+    if (!over && !timeUp) return {};
+    return {result.held ? 1.0 : -std::min(result.rebound, 1.0), true, timeUp};
   }
 };
 

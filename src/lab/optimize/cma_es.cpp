@@ -83,7 +83,8 @@ Eigen::VectorXd CmaEs::intoBox(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd CmaEs::deviations() const {
-  return sigma_ * covariance_.diagonal().cwiseSqrt();
+  // The covariance of a run that ended as ill-conditioned may have lost its sign.
+  return sigma_ * covariance_.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
 const Eigen::MatrixXd& CmaEs::ask() {
@@ -208,7 +209,11 @@ void RestartingCmaEs::tell(const Eigen::VectorXd& fitness) {
     bestFitness_ = run_.bestFitness();
     best_ = run_.best();
   }
+}
+
+const Eigen::MatrixXd& RestartingCmaEs::ask() {
   if (run_.stop() != CmaEsStop::None && scheme_ != RestartScheme::None) restart();
+  return run_.ask();
 }
 
 void RestartingCmaEs::restart() {

@@ -183,6 +183,7 @@ class MpiEvaluator final : public Evaluator {
         ranks_(static_cast<std::size_t>(job.size())) {}
 
   ~MpiEvaluator() override {
+    awaitSecondCopies();
     // Finalizing waits for all ranks: where one is lost, nobody may.
     const bool complete = workers() == job_.size();
     if (!complete) job_.giveUpFinalize();
@@ -216,7 +217,7 @@ class MpiEvaluator final : public Evaluator {
  private:
   struct Rank {
     bool busy = false;
-    bool overdue = false;  // its job was given to another rank as well
+    bool overdue = false;  // its job was given to another rank as well, or another has answered it
     std::int64_t id = 0;   // of the job it holds
     Clock::time_point since{};
     Clock::time_point heard{};
@@ -291,15 +292,44 @@ class MpiEvaluator final : public Evaluator {
 
   std::optional<std::size_t> overdueJob() {
     if (longest_ == Clock::duration::zero()) return std::nullopt;
-    const auto limit = std::chrono::duration_cast<Clock::duration>(longest_ * kOverdue) + 10 * kPoll;
     for (Rank& rank : ranks_) {
-      const std::int64_t index = rank.id - firstId_;
-      if (!rank.busy || rank.overdue || index < 0 || done_[static_cast<std::size_t>(index)] != 0) continue;
-      if (Clock::now() - rank.since < limit) continue;
+      if (!rank.busy || rank.overdue || !isLate(rank)) continue;
       rank.overdue = true;
-      return static_cast<std::size_t>(index);
+      if (!isAnswered(rank)) return static_cast<std::size_t>(rank.id - firstId_);
     }
     return std::nullopt;
+  }
+
+  bool isLate(const Rank& rank) const {
+    return Clock::now() - rank.since >=
+           std::chrono::duration_cast<Clock::duration>(longest_ * kOverdue) + 10 * kPoll;
+  }
+
+  /// Whether another rank has answered the job of this one, be it in an earlier batch.
+  bool isAnswered(const Rank& rank) const {
+    const std::int64_t index = rank.id - firstId_;
+    return index < 0 || done_[static_cast<std::size_t>(index)] != 0;
+  }
+
+  // At the end: who holds a job that another has answered does so too before long, or is lost.
+  void awaitSecondCopies() {
+    ranks_[0].overdue = false;  // it knows that it lives
+    while (!secondCopiesSettled()) std::this_thread::sleep_for(kPoll);
+  }
+
+  bool secondCopiesSettled() {
+    while (const auto message = receive()) {
+      Rank& rank = ranks_[static_cast<std::size_t>(message->source)];
+      if (message->tag == kTagResult) rank.busy = rank.overdue = false;
+    }
+    bool settled = true;
+    for (std::size_t r = 1; r < ranks_.size(); ++r) {
+      Rank& rank = ranks_[r];
+      if (!rank.busy || rank.overdue || !isAnswered(rank)) continue;
+      rank.overdue = isLate(rank);
+      settled = settled && rank.overdue;
+    }
+    return settled;
   }
 
   // Idle ranks must know that rank 0 lives.

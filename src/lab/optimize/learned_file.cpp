@@ -166,11 +166,7 @@ std::string learnedToml(const agent::AgentParameters& parameters, const agent::A
   const auto baseFields = config::fieldsOf(base);
   std::vector<config::detail::Field> kept;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const auto value = [](const config::detail::Field& field) {
-      if (field.real != nullptr) return *field.real;
-      return field.integer != nullptr ? *field.integer : static_cast<double>(*field.boolean);
-    };
-    if (tables.contains(tableOf(fields[i].key)) || value(fields[i]) != value(baseFields[i]))
+    if (tables.contains(tableOf(fields[i].key)) || !config::detail::sameValue(fields[i], baseFields[i]))
       kept.push_back(fields[i]);
   }
   std::string text = summary(origins) + "\n" + config::detail::toToml(kept, nullptr);

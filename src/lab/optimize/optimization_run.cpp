@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -106,6 +107,7 @@ OptimizationRun::OptimizationRun(std::string folder, const OptimizationSettings&
       space_(settings.startParameters(dataFolder_), settings.searchedKeys()),
       optimizer_(space_.start(), cmaSettings(settings, space_), settings.restarts) {
   incumbent_.point = space_.start();
+  incumbent_.population = optimizer_.run().population();
 }
 
 OptimizationSettings OptimizationRun::readSettings(const std::string& folder) {
@@ -205,7 +207,8 @@ OptimizationRun::Values OptimizationRun::evaluateGeneration(Evaluator& evaluator
 
 // Fresh seeds, the same for all, and a challenger must win by more than the standard error of the paired
 // difference: the best of many noisy values is mostly luck.
-void OptimizationRun::validate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers) {
+OptimizationRun::Incumbent OptimizationRun::validated(Evaluator& evaluator,
+                                                      const std::vector<Eigen::VectorXd>& challengers) {
   const auto seeds =
       trialSeeds(settings_.seed, generation_, SeedStream::Validation, settings_.validationTrials);
   const SeedDraw draw{settings_.seed, generation_, settings_.validationTrials};
@@ -218,13 +221,20 @@ void OptimizationRun::validate(Evaluator& evaluator, const std::vector<Eigen::Ve
     for (std::size_t i = 0; i < seeds.size(); ++i) gain[i] = values[k][i] - values[winner][i];
     if (mean(gain) > standardError(gain)) winner = k;
   }
-  if (winner == 0) {
-    incumbent_.seeds.add(draw);
-    incumbent_.values.insert(incumbent_.values.end(), values[0].begin(), values[0].end());
-  } else {
-    incumbent_ = {points[winner], {}, values[winner], generation_, trials_};
-    incumbent_.seeds.add(draw);
-  }
+  Incumbent best = incumbent_;
+  if (winner != 0) best = {points[winner], {}, {}, generation_, trials_, optimizer_.run().population()};
+  best.seeds.add(draw);
+  best.values.insert(best.values.end(), values[winner].begin(), values[winner].end());
+  return best;
+}
+
+// A longer run has no validation here: what it will go on from, its trials included, stays as it is.
+void OptimizationRun::validateLast(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers,
+                                   GenerationReport& report) {
+  const std::int64_t trials = trials_;
+  last_ = validated(evaluator, challengers);
+  report.trials = std::exchange(trials_, trials);
+  report.incumbent = mean(last_->values);
 }
 
 bool OptimizationRun::step(Evaluator& evaluator, GenerationReport& report) {
@@ -238,8 +248,9 @@ bool OptimizationRun::step(Evaluator& evaluator, GenerationReport& report) {
 
   Eigen::Index best = 0;
   report.best = fitness.maxCoeff(&best);
-  if (generation_ == 1 || generation_ % settings_.validationEvery == 0)
-    validate(evaluator, {optimizer_.run().meanInBox(), points.col(best)});
+  const std::vector<Eigen::VectorXd> challengers{optimizer_.run().meanInBox(), points.col(best)};
+  const bool due = generation_ == 1 || generation_ % settings_.validationEvery == 0 || optimizer_.finished();
+  if (due) incumbent_ = validated(evaluator, challengers);
 
   report.generation = generation_;
   report.mean = 0.0;
@@ -249,6 +260,7 @@ bool OptimizationRun::step(Evaluator& evaluator, GenerationReport& report) {
   report.incumbent =
       incumbent_.values.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(incumbent_.values);
   appendLine(line(points, seeds, values, report));
+  if (!due && generation_ == settings_.generations) validateLast(evaluator, challengers, report);
   writeBest();
   writeCheckpoint();
   return true;
@@ -287,17 +299,29 @@ void OptimizationRun::appendLine(const std::string& text) {
   bytes_ += static_cast<std::int64_t>(text.size());
 }
 
+json OptimizationRun::Incumbent::toJson() const {
+  return {{"point", vectorJson(point)}, {"seeds", seeds.toJson()}, {"values", values},
+          {"generation", generation},   {"budget", budget},        {"population", population}};
+}
+
+OptimizationRun::Incumbent OptimizationRun::Incumbent::fromJson(const json& value) {
+  Incumbent incumbent;
+  incumbent.point = vectorFrom(value.at("point"));
+  incumbent.seeds = SeedList::fromJson(value.at("seeds"));
+  value.at("values").get_to(incumbent.values);
+  value.at("generation").get_to(incumbent.generation);
+  value.at("budget").get_to(incumbent.budget);
+  incumbent.population = value.value("population", 0);
+  return incumbent;
+}
+
 void OptimizationRun::writeCheckpoint() const {
-  const json state = {{"generation", generation_},
-                      {"trials", trials_},
-                      {"bytes", bytes_},
-                      {"optimizer", optimizer_.save()},
-                      {"incumbent",
-                       {{"point", vectorJson(incumbent_.point)},
-                        {"seeds", incumbent_.seeds.toJson()},
-                        {"values", incumbent_.values},
-                        {"generation", incumbent_.generation},
-                        {"budget", incumbent_.budget}}}};
+  json state = {{"generation", generation_},
+                {"trials", trials_},
+                {"bytes", bytes_},
+                {"optimizer", optimizer_.save()},
+                {"incumbent", incumbent_.toJson()}};
+  if (last_) state["last"] = last_->toJson();
   writeAtomically(folder_ + kCheckpoint, state.dump() + "\n");
 }
 
@@ -308,7 +332,8 @@ void OptimizationRun::readCheckpoint() {
   } catch (const json::exception& error) {
     throw std::runtime_error(fmt::format("{}: is damaged: {}", path, error.what()));
   }
-  if (incumbent_.point.size() != space_.dimension() || optimizer_.run().dimension() != space_.dimension())
+  if (bestSoFar().point.size() != space_.dimension() || incumbent_.point.size() != space_.dimension() ||
+      optimizer_.run().dimension() != space_.dimension())
     throw std::runtime_error(
         fmt::format("{}: the declared parameters have changed since the run began; start a new one", path));
 }
@@ -318,25 +343,26 @@ void OptimizationRun::restore(const json& state) {
   state.at("trials").get_to(trials_);
   state.at("bytes").get_to(bytes_);
   optimizer_ = RestartingCmaEs::restore(state.at("optimizer"));
-  const json& incumbent = state.at("incumbent");
-  incumbent_.point = vectorFrom(incumbent.at("point"));
-  incumbent_.seeds = SeedList::fromJson(incumbent.at("seeds"));
-  incumbent.at("values").get_to(incumbent_.values);
-  incumbent.at("generation").get_to(incumbent_.generation);
-  incumbent.at("budget").get_to(incumbent_.budget);
+  incumbent_ = Incumbent::fromJson(state.at("incumbent"));
+  // Checkpoints of before it was written down.
+  if (incumbent_.population == 0) incumbent_.population = optimizer_.run().population();
+  last_.reset();
+  if (generation_ >= settings_.generations && state.contains("last"))
+    last_ = Incumbent::fromJson(state.at("last"));
 }
 
 Provenance OptimizationRun::origin() const {
+  const Incumbent& best = bestSoFar();
   return {.task = settings_.task,
           .robotType = settings_.robotType,
           .quickSolver = settings_.quickSolver,
           .runSeed = settings_.seed,
-          .population = optimizer_.run().population(),
-          .generation = incumbent_.generation,
-          .budget = incumbent_.budget,
-          .fitness = mean(incumbent_.values),
-          .standardError = standardError(incumbent_.values),
-          .seeds = incumbent_.seeds,
+          .population = best.population,
+          .generation = best.generation,
+          .budget = best.budget,
+          .fitness = mean(best.values),
+          .standardError = standardError(best.values),
+          .seeds = best.seeds,
           .date = settings_.date,
           .version = settings_.version};
 }
@@ -344,8 +370,8 @@ Provenance OptimizationRun::origin() const {
 void OptimizationRun::writeBest() const {
   std::vector<Provenance> origins = settings_.inherited;
   replaceProvenance(origins, origin());
-  writeAtomically(folder_ + kBest, learnedToml(space_.apply(incumbent_.point), defaultParameters(dataFolder_),
-                                               space_.keys(), origins));
+  writeAtomically(folder_ + kBest, learnedToml(space_.apply(bestSoFar().point),
+                                               defaultParameters(dataFolder_), space_.keys(), origins));
 }
 
 }  // namespace nonet::lab

@@ -126,10 +126,11 @@ std::string fitnessText(const OptimizationSettings& settings, const std::vector<
       "accepted: every {} generations it meets the centre of the distribution and the best candidate on {}\n"
       "fresh seeds, and gives way to who wins by more than the standard error of the difference (upright\n"
       "lines). Its value is the mean of all its own trials: it moves as trials are added, mostly down at\n"
-      "first, since who has just won was lucky too",
+      "first, since who has just won was lucky too. A run that ends between two such meetings has a\n"
+      "last one, which best.toml holds and this page does not",
       settings.validationEvery, settings.validationTrials);
   if (last.contains("incumbentGeneration") && last["incumbent"].is_number()) {
-    text += fmt::format("; now {:.4g}", last["incumbent"].get<double>());
+    text += fmt::format("; here it is {:.4g}", last["incumbent"].get<double>());
     if (last.contains("incumbentError") && last["incumbentError"].is_number())
       text += fmt::format(" &plusmn; {:.2g}", last["incumbentError"].get<double>());
     text += fmt::format(" from {} trials, of generation {}", last["incumbentTrials"].get<long>(),

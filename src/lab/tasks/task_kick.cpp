@@ -2,7 +2,8 @@
 // ten directions on a half circle, the ball where it is seen, sometimes rolling. The fitness is the distance
 // towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a self-collision, a miss
 // or a ball that leaves by more than ten degrees. Of a kick that goes as far as is asked for, the error
-// counts instead of the distance, of a chip the height.
+// counts instead of the distance, of a chip the height. played_NAME: the same of kick_NAME with the ball as
+// play leaves it, often rolling away.
 #include <cmath>
 #include <string>
 
@@ -22,19 +23,22 @@ constexpr int kKicks = 4;           // a trial: four bearings
 constexpr double kPenalty = -1.0;   // m
 constexpr double kPerSecond = 1.2;  // m/s
 constexpr double kStraight = toRadians(10.0);
-constexpr double kRolling = 0.3;   // m/s
+constexpr double kRolling = 0.3;    // m/s
+constexpr double kFaster = 0.5;     // m/s, in play
+constexpr double kLeastPush = 0.2;  // m/s, of a ball that rolls straight away
+constexpr double kMostPush = 0.6;
 constexpr double kNearest = 0.3;   // m from the ball, where the approach begins
 constexpr double kFarthest = 1.5;  // m
 
-class KickTask final : public Task {
+class KickTask : public Task {
  public:
-  explicit KickTask(std::string name) : name_(std::move(name)) {}
+  explicit KickTask(std::string kick) : kick_(std::move(kick)) {}
 
-  std::string_view name() const override { return name_; }
+  std::string_view name() const override { return kick_; }
   std::string_view description() const override {
     return "a kick with its approach: far, straight, soon and without a fall";
   }
-  std::vector<std::string> searchedKeys() const override { return {"motion.skills." + name_ + "."}; }
+  std::vector<std::string> searchedKeys() const override { return {"motion.skills." + kick_ + "."}; }
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
@@ -44,16 +48,16 @@ class KickTask final : public Task {
     agent.skillFolder = settings.dataFolder + "/skills";
     sim::Settings server;
     server.quickSolver = settings.quickSolver;
-    const motion::KickHead head = kickHead(agent, name_);
+    const motion::KickHead head = kickHead(agent, kick_);
     Random random = Random(seed).fork(6);
     const int first = random.uniform() < 0.5 ? 0 : 5;
     TaskResult result;
     double distance = 0.0, aside = 0.0, time = 0.0, falls = 0.0, fouls = 0.0, failures = 0.0;
     for (int i = 0; i < kKicks; ++i) {
       KickScene scene;
-      scene.kick = name_;
+      scene.kick = kick_;
       scene.bearing = kickBearing(first + 3 * i);
-      scene.rolling = i % 2 == 0 ? 0.0 : kRolling;
+      roll(i, scene, random);
       scene.start = random.uniform(kNearest, kFarthest);
       if (head.scales) {
         scene.distance = random.uniform(head.shortest, head.longest);
@@ -78,6 +82,30 @@ class KickTask final : public Task {
   }
 
  private:
+  // Of the trial's i-th kick.
+  virtual void roll(int i, KickScene& scene, Random& /*random*/) const {
+    scene.rolling = i % 2 == 0 ? 0.0 : kRolling;
+  }
+
+  std::string kick_;
+};
+
+class PlayedKickTask final : public KickTask {
+ public:
+  explicit PlayedKickTask(const std::string& name) : KickTask("kick_" + name), name_("played_" + name) {}
+
+  std::string_view name() const override { return name_; }
+  std::string_view description() const override {
+    return "the same with the ball as play leaves it: resting, rolling anywhere, or pushed ahead";
+  }
+
+ private:
+  void roll(int i, KickScene& scene, Random& random) const override {
+    if (i == 1) scene.rolling = kFaster;
+    if (i == 2) scene.pushed = random.uniform(kLeastPush, kMostPush);
+    if (i == 3) scene.rolling = kRolling;
+  }
+
   std::string name_;
 };
 
@@ -85,6 +113,10 @@ class KickTask final : public Task {
 
 const Task& kickTask(std::string_view name) {
   return taskNamed<KickTask>(name);
+}
+
+const Task& playedKickTask(std::string_view name) {
+  return taskNamed<PlayedKickTask>(name);
 }
 
 }  // namespace nonet::lab

@@ -25,6 +25,7 @@ std::span<const Task* const> registeredTasks() {
       &getupBackTask(),
       &swingTask("power"),
       &kickTask("kick_power"),
+      &playedKickTask("power"),
       &diveTask(),
       &blockTask(),
       &saveTask(),
@@ -43,6 +44,7 @@ std::span<const Task* const> registeredTasks() {
 const Task& findTask(std::string_view name) {
   if (name.starts_with("kick_")) return kickTask(name);
   if (name.starts_with("swing_")) return swingTask(name.substr(std::string_view("swing_").size()));
+  if (name.starts_with("played_")) return playedKickTask(name.substr(std::string_view("played_").size()));
   std::string known;
   for (const Task* task : registeredTasks()) {
     if (task->name() == name) return *task;

@@ -25,6 +25,8 @@ const Task& getupFrontTask();
 const Task& getupBackTask();
 /// The task for the kick with this name (any skill with the head of a kick; they all begin with "kick_").
 const Task& kickTask(std::string_view name);
+/// The kick kick_NAME with the ball as play leaves it.
+const Task& playedKickTask(std::string_view name);
 /// "power": the same kick from the moment it begins.
 const Task& swingTask(std::string_view name);
 const Task& diveTask();

@@ -80,10 +80,12 @@ class OdeWorld {
 Mechanism buildMechanism(dWorldID world, const RobotPlan& plan);
 Mechanism buildBall(dWorldID world, float radius, float mass);
 
-/// Copies poses, velocities, forces, motor speeds, and whether each body is enabled, bit by bit.
+/// copyBody() for every body, and the motor speeds of the joints. Sleep (enabled or not, the countdown) is
+/// the caller's business.
 void copyState(const Mechanism& from, const Mechanism& to);
 
-/// Writes pose and velocities without ODE's normalisation of quaternion and matrix.
+/// Writes pose, velocities, force and torque bit by bit, without ODE's normalisation of quaternion and
+/// matrix.
 void copyBody(dBodyID from, dBodyID to);
 
 }  // namespace nonet::sim

@@ -182,8 +182,9 @@ struct World::Implementation {
   // world_state.cpp
   std::vector<std::uint8_t> save() const;
   void restore(std::span<const std::uint8_t> state);
+  void restoreMembers(std::span<const std::uint8_t>& in);
   int memberNumber(dGeomID geom) const;
-  dGeomID memberGeom(int number);
+  dGeomID memberGeom(int number);  // null: there is none
 
   WorldSettings settings;
   dSpaceID space = nullptr;

@@ -4,6 +4,7 @@
 //  - the steps left until auto-disable are followed beside ODE (followSleep) and set by way of dBodyEnable;
 //  - the order of the geoms in their spaces, which decides the order of the contacts, and which of them ODE
 //    holds for moved, is rebuilt by removing and adding them.
+#include <algorithm>
 #include <stdexcept>
 
 #include "sim/physics/hash.h"
@@ -19,6 +20,10 @@ constexpr std::uint32_t kFormat = 0x4E575231;  // "NWR1"
 using Bytes = std::vector<std::uint8_t>;
 using Input = std::span<const std::uint8_t>;
 
+void demand(bool holds) {
+  if (!holds) throw std::runtime_error("saved world: is damaged");
+}
+
 void putParty(Bytes& out, const ContactParty& party) {
   put(out, party.kind);
   put(out, party.robot);
@@ -30,6 +35,7 @@ ContactParty takenParty(Input& in) {
   take(in, party.kind);
   take(in, party.robot);
   take(in, party.body);
+  demand(party.kind <= ContactParty::Kind::Robot && model::index(party.body) < model::kBodyCount);
   return party;
 }
 
@@ -130,12 +136,17 @@ void restoreRobot(Input& in, RobotNode& robot) {
     foot.last.center = taken<Vector3f>(in);
     foot.last.force = taken<Vector3f>(in);
   }
-  std::vector<dGeomID> order(static_cast<std::size_t>(taken<int>(in)));
-  std::vector<bool> moved(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const BodyNode& body = robot.body(taken<model::BodyId>(in));
-    order[i] = body.geom;
-    moved[i] = body.moved;
+  // Each geom once: ODE does not check what is put into a space.
+  demand(taken<int>(in) == dSpaceGetNumGeoms(robot.space));
+  std::vector<dGeomID> order;
+  std::vector<bool> moved;
+  for (int i = 0; i < dSpaceGetNumGeoms(robot.space); ++i) {
+    const auto id = taken<model::BodyId>(in);
+    demand(model::index(id) < model::kBodyCount && robot.bodyIndex[model::index(id)] >= 0);
+    const BodyNode& body = robot.body(id);
+    demand(body.geom != nullptr && std::ranges::count(order, body.geom) == 0);
+    order.push_back(body.geom);
+    moved.push_back(body.moved);
   }
   refillSpace(robot.space, order, moved);
 }
@@ -181,32 +192,50 @@ void World::Implementation::restore(std::span<const std::uint8_t> state) {
   cycles = taken<std::uint64_t>(in);
   nextHandle = taken<RobotHandle>(in);
   ballInGoal = taken<Goal>(in);
+  demand(ballInGoal <= Goal::Right);
   fixturesMoved = taken<bool>(in);
   restoreBody(in, ball);
   const auto robotCount = taken<std::size_t>(in);
   for (std::size_t i = 0; i < robotCount; ++i) {
     const auto handle = taken<RobotHandle>(in);
-    addRobotAs(handle, taken<int>(in));
+    const int type = taken<int>(in);
+    demand(handle >= 0 && handle < nextHandle && std::ranges::count(handles, handle) == 0);
+    demand(type >= 0 && type < model::kRobotTypeCount);
+    addRobotAs(handle, type);
     restoreRobot(in, *robots.back());
   }
-  contacts.resize(taken<std::size_t>(in));
-  for (ContactPair& pair : contacts) {
+  contacts.clear();
+  const auto contactCount = taken<std::size_t>(in);
+  for (std::size_t i = 0; i < contactCount; ++i) {
+    ContactPair pair;
     pair.first = takenParty(in);
     pair.second = takenParty(in);
     pair.pointCount = taken<int>(in);
     pair.meanPosition = taken<Vector3f>(in);
+    contacts.push_back(pair);
   }
-  std::vector<dGeomID> order(static_cast<std::size_t>(taken<int>(in)));
-  std::vector<bool> moved(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  restoreMembers(in);
+  if (!in.empty()) throw std::runtime_error("saved world: data after its end");
+}
+
+void World::Implementation::restoreMembers(std::span<const std::uint8_t>& in) {
+  demand(taken<int>(in) == dSpaceGetNumGeoms(space));
+  std::vector<dGeomID> order;
+  std::vector<bool> moved;
+  for (int i = 0; i < dSpaceGetNumGeoms(space); ++i) {
     const int number = taken<int>(in);
-    order[i] = memberGeom(number);
-    moved[i] = fixturesMoved;
-    if (number == kBallMember) moved[i] = ball.moved;
-    if (number >= 0 && number < kFirstFixture) moved[i] = anyMoved(robot(number));
+    const dGeomID geom = memberGeom(number);
+    demand(geom != nullptr && std::ranges::count(order, geom) == 0);
+    order.push_back(geom);
+    if (number == kBallMember) {
+      moved.push_back(ball.moved);
+    } else if (number >= 0 && number < kFirstFixture) {
+      moved.push_back(anyMoved(robot(number)));
+    } else {
+      moved.push_back(fixturesMoved);
+    }
   }
   refillSpace(space, order, moved);
-  if (!in.empty()) throw std::runtime_error("saved world: data after its end");
 }
 
 int World::Implementation::memberNumber(dGeomID geom) const {
@@ -226,8 +255,12 @@ dGeomID World::Implementation::memberGeom(int number) {
   if (number == kBallMember) return ball.geom;
   if (number == kLeftGoalMember) return reinterpret_cast<dGeomID>(leftGoal);
   if (number == kRightGoalMember) return reinterpret_cast<dGeomID>(rightGoal);
-  if (number < kFirstFixture) return reinterpret_cast<dGeomID>(robot(number).space);
-  return fixtures.at(static_cast<std::size_t>(number - kFirstFixture));
+  if (number < kFirstFixture) {
+    if (std::ranges::count(handles, number) == 0) return nullptr;
+    return reinterpret_cast<dGeomID>(robot(number).space);
+  }
+  const auto place = static_cast<std::size_t>(number - kFirstFixture);
+  return place < fixtures.size() ? fixtures[place] : nullptr;
 }
 
 std::uint64_t World::signature() const {

@@ -57,6 +57,31 @@ TEST(Env, DribblingForwardEarnsMetres) {
   EXPECT_GT(earned, 0.5);
 }
 
+// Who only stands holds few passes; nothing has ended when the others' time is up.
+TEST(Env, APassThatIsNotHeldEndsByTime) {
+  const std::unique_ptr<Env> env = makeEnv("receive", settings());
+  const std::vector<float> still(env->actions(), 0.0F);
+  int byTime = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    env->reset(seed);
+    EnvStep step;
+    double time = 0.0;
+    while (!step.done && time < 10.0) {
+      step = env->step(still);
+      time += env->secondsPerStep();
+    }
+    ASSERT_TRUE(step.done);
+    byTime += step.timeUp ? 1 : 0;
+    if (step.timeUp) {
+      EXPECT_NEAR(time, 4.0, 0.2);
+      EXPECT_LE(step.reward, 0.0);
+    } else {
+      EXPECT_TRUE(step.reward == 1.0 || time < 4.0) << step.reward;
+    }
+  }
+  EXPECT_GT(byTime, 0);
+}
+
 TEST(Env, RunningIsStandingWithoutAction) {
   const std::unique_ptr<Env> env = makeEnv("run", settings());
   env->reset(1);

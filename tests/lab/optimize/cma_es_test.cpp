@@ -160,6 +160,30 @@ TEST(CmaEs, ContinuesFromItsCheckpointToTheLastBit) {
   EXPECT_EQ(whole.save().dump(), straight.save().dump());
 }
 
+// Who looks at a run between two generations sees what the last one led to, not the start of the next.
+TEST(CmaEs, ARunThatEndedIsThereUntilTheNextIsAsked) {
+  CmaEsSettings settings;
+  settings.low = Eigen::VectorXd::Constant(3, -5.0);
+  settings.high = Eigen::VectorXd::Constant(3, 5.0);
+  RestartingCmaEs optimizer(Eigen::VectorXd::Constant(3, 4.0), settings, RestartScheme::Ipop);
+  const int population = optimizer.run().population();
+  for (int i = 0; i < 2000 && optimizer.run().stop() == CmaEsStop::None; ++i) {
+    const Eigen::MatrixXd points = optimizer.ask();
+    Eigen::VectorXd fitness(points.cols());
+    for (Eigen::Index k = 0; k < points.cols(); ++k) fitness[k] = sphere(points.col(k).data(), 3);
+    optimizer.tell(fitness);
+  }
+  ASSERT_NE(optimizer.run().stop(), CmaEsStop::None);
+  EXPECT_EQ(optimizer.restarts(), 0);
+  EXPECT_EQ(optimizer.run().population(), population);
+  EXPECT_LT(optimizer.run().meanInBox().norm(), 1e-3);
+  const std::int64_t evaluations = optimizer.evaluations();
+  optimizer = RestartingCmaEs::restore(nlohmann::json::parse(optimizer.save().dump()));
+  EXPECT_EQ(optimizer.ask().cols(), 2 * population);
+  EXPECT_EQ(optimizer.restarts(), 1);
+  EXPECT_EQ(optimizer.evaluations(), evaluations);
+}
+
 TEST(CmaEs, KeepsSamplesInTheBoxAndFindsAnOptimumOnItsBorder) {
   CmaEsSettings settings;
   settings.low = Eigen::VectorXd::Constant(5, 1.0);

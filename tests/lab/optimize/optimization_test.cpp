@@ -1,4 +1,5 @@
 // The run folder: the same bytes whatever interrupts it, values that can be measured again.
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -137,6 +138,72 @@ TEST_F(RunFolder, ForgetsWhatWasWrittenAfterTheCheckpoint) {
   auto resumed = OptimizationRun::resume(root_ + "/torn", "", settings().generations);
   finish(resumed, 1);
   expectSameRun(root_ + "/whole", root_ + "/torn");
+}
+
+// A run that ends between two regular validations: the last generations count as well.
+TEST_F(RunFolder, TheLastGenerationIsValidated) {
+  OptimizationSettings four = settings();
+  four.generations = 4;
+  const std::string folder = root_ + "/run";
+  GenerationReport report;
+  std::int64_t trials = 0;
+  {
+    auto run = OptimizationRun::create(folder, four, "");
+    const auto evaluator = makeThreadEvaluator(makeObjective(run.settings(), ""), 1);
+    while (run.step(*evaluator, report)) {
+    }
+    trials = run.trials();
+  }
+  const std::string best = bytes(folder + "/best.toml");
+  const auto origins = readProvenance(folder + "/best.toml");
+  ASSERT_EQ(origins.size(), 1U);
+  const auto seeds = origins[0].seeds.all();
+  const auto drawn = trialSeeds(four.seed, 4, SeedStream::Validation, four.validationTrials);
+  ASSERT_GE(seeds.size(), drawn.size());
+  EXPECT_TRUE(std::equal(drawn.rbegin(), drawn.rend(), seeds.rbegin()));
+  EXPECT_EQ(report.trials, trials + 3 * four.validationTrials);
+  EXPECT_DOUBLE_EQ(report.incumbent, origins[0].fitness);
+  {
+    auto again = OptimizationRun::resume(folder, "", std::nullopt);
+    finish(again, 1);
+  }
+  EXPECT_EQ(bytes(folder + "/best.toml"), best);
+}
+
+TEST_F(RunFolder, ALongerRunForgetsTheLastValidationOfAShorterOne) {
+  OptimizationSettings longer = settings();
+  longer.generations = 13;
+  {
+    auto whole = OptimizationRun::create(root_ + "/whole", longer, "");
+    finish(whole, 1);
+  }
+  OptimizationSettings shorter = settings();
+  shorter.generations = 4;
+  {
+    auto run = OptimizationRun::create(root_ + "/extended", shorter, "");
+    finish(run, 1);
+  }
+  for (const int generations : {7, 13}) {
+    auto run = OptimizationRun::resume(root_ + "/extended", "", generations);
+    finish(run, 1);
+  }
+  expectSameRun(root_ + "/whole", root_ + "/extended");
+}
+
+TEST_F(RunFolder, CheckpointsWithoutThePopulationOfTheIncumbentAreRead) {
+  OptimizationSettings five = settings();
+  five.generations = 5;
+  const std::string folder = root_ + "/run";
+  {
+    auto run = OptimizationRun::create(folder, five, "");
+    finish(run, 1);
+  }
+  const std::string best = bytes(folder + "/best.toml");
+  auto state = nlohmann::json::parse(bytes(folder + "/checkpoint.json"));
+  ASSERT_EQ(state.at("incumbent").erase("population"), 1U);
+  writeAtomically(folder + "/checkpoint.json", state.dump());
+  OptimizationRun::resume(folder, "", std::nullopt);
+  EXPECT_EQ(bytes(folder + "/best.toml"), best);
 }
 
 TEST_F(RunFolder, ImprovesAndItsProvenanceRepeats) {

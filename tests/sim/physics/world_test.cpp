@@ -1,5 +1,6 @@
 #include "nonet/sim/physics/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -238,6 +239,40 @@ TEST(World, DamagedSnapshotsAreRefused) {
   state.pop_back();
   EXPECT_THROW(world.restore(state), std::runtime_error);
   state[0] ^= 1U;
+  EXPECT_THROW(world.restore(state), std::runtime_error);
+}
+
+// What is not a count or a name, such as the place of a contact, may be anything.
+TEST(World, SnapshotsWithWrongCountsOrNamesAreRefused) {
+  World world;
+  buildCrowd(world);
+  step(world, 40);
+  const std::vector<std::uint8_t> good = world.save();
+  World other;
+  constexpr std::size_t kTail = 100;  // the members and the last contacts
+  ASSERT_GT(good.size(), kTail);
+  int refused = 0;
+  for (std::size_t i = good.size() - kTail; i < good.size(); ++i) {
+    std::vector<std::uint8_t> state = good;
+    state[i] = 0xff;
+    try {
+      other.restore(state);
+    } catch (const std::runtime_error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 20);
+  other.restore(good);
+  EXPECT_EQ(other.save(), good);
+}
+
+TEST(World, SnapshotsWithAGeomTwiceAreRefused) {
+  World world;
+  world.addRobot(0);
+  std::vector<std::uint8_t> state = world.save();
+  // The members of the space end the state, 32-bit numbers each.
+  const auto last = state.end() - 4;
+  std::copy_n(last - 4, 4, last);
   EXPECT_THROW(world.restore(state), std::runtime_error);
 }
 

@@ -166,6 +166,8 @@ TEST(Settings, AssignmentOfTheCommandLine) {
   settings.setAssignment(" AutomaticKickOff = true ");
   EXPECT_EQ(settings.ruleHalfTime, 60.0);
   EXPECT_TRUE(settings.automaticKickOff);
+  settings.setAssignment("FieldLength=+31");
+  EXPECT_EQ(settings.fieldLength, 31.0);
   EXPECT_THAT(messageOf([&] { settings.setAssignment("RuleHalfTime"); }), HasSubstr("Name=Value"));
 }
 

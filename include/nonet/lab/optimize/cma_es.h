@@ -104,7 +104,8 @@ class RestartingCmaEs {
   /// a normal step of the initial sigma.
   RestartingCmaEs(const Eigen::VectorXd& start, const CmaEsSettings& settings, RestartScheme scheme);
 
-  const Eigen::MatrixXd& ask() { return run_.ask(); }
+  /// Begins the next run if the last tell() ended one: until then run() is the one that was told.
+  const Eigen::MatrixXd& ask();
   void tell(const Eigen::VectorXd& fitness);
 
   const CmaEs& run() const { return run_; }

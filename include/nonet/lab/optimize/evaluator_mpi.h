@@ -1,7 +1,7 @@
 // Evaluations on the ranks of an MPI job, one rank per core. Rank 0 hands out one job at a time to whoever is
 // free and evaluates too; the others serve. A rank that dies keeps the one job it held: as soon as that is
 // overdue it is given to another rank as well, and since an evaluation is a pure function it does not matter
-// who answers first. So nothing is lost and no rank is ever waited for, as long as rank 0 lives.
+// who answers first. So nothing is lost, and no rank is waited for longer than that, as long as rank 0 lives.
 //
 // The launcher must not end the whole job when one rank dies: `mpirun --enable-recovery` (Open MPI 4),
 // `srun --kill-on-bad-exit=0 --no-kill`.

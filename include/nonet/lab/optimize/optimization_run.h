@@ -1,7 +1,8 @@
 // One optimization as a folder: config.json (what is optimized, with every seed), generations.jsonl (one
 // line each: every point, every seed, every value), checkpoint.json (written to a new file, then renamed),
 // best.toml (the best parameters so far with their provenance). A run that is killed at any point and resumed
-// ends in the same bytes as one that was not.
+// ends in the same bytes as one that was not. So does one that is made longer: a last validation between the
+// regular ones goes into best.toml only, and a longer run forgets it.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +54,21 @@ class OptimizationRun {
                   const std::vector<std::uint64_t>& seeds);
   Values evaluateGeneration(Evaluator& evaluator, const Eigen::MatrixXd& points,
                             const std::vector<std::uint64_t>& seeds);
-  void validate(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers);
+  // The best point so far, with all validations that it took part in.
+  struct Incumbent {
+    Eigen::VectorXd point;
+    SeedList seeds;
+    std::vector<double> values;
+    int generation = 0;  // that it comes from
+    std::int64_t budget = 0;
+    int population = 0;  // of the generation that it comes from
+
+    nlohmann::json toJson() const;
+    static Incumbent fromJson(const nlohmann::json& value);
+  };
+  Incumbent validated(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers);
+  void validateLast(Evaluator& evaluator, const std::vector<Eigen::VectorXd>& challengers,
+                    GenerationReport& report);
   std::string line(const Eigen::MatrixXd& points, const std::vector<std::uint64_t>& seeds,
                    const Values& values, const GenerationReport& report) const;
   void appendLine(const std::string& text);
@@ -61,6 +76,7 @@ class OptimizationRun {
   void readCheckpoint();
   void restore(const nlohmann::json& state);
   void writeBest() const;
+  const Incumbent& bestSoFar() const { return last_ ? *last_ : incumbent_; }
   Provenance origin() const;
 
   std::string folder_;
@@ -72,14 +88,8 @@ class OptimizationRun {
   int generation_ = 0;  // finished ones
   std::int64_t trials_ = 0;
   std::int64_t bytes_ = 0;  // of generations.jsonl
-  // The best point so far, with all validations that it took part in.
-  struct Incumbent {
-    Eigen::VectorXd point;
-    SeedList seeds;
-    std::vector<double> values;
-    int generation = 0;  // that it comes from
-    std::int64_t budget = 0;
-  } incumbent_;
+  Incumbent incumbent_;
+  std::optional<Incumbent> last_;  // who won the last validation, where that is not a regular one
 };
 
 }  // namespace nonet::lab

@@ -26,7 +26,8 @@ struct OptimizationSettings {
   double sigma = 0.1;         // of the search ranges
   int trials = 4;             // seeds per candidate; all candidates of a generation get the same ones
   bool racing = false;        // the worse half of a generation gets only half of the trials
-  int validationEvery = 5;    // generations between comparisons of mean, generation's best and incumbent
+  int validationEvery = 5;    // generations between comparisons of mean, generation's best and incumbent; the
+                              // last generation has one in any case
   int validationTrials = 16;  // fresh seeds per comparison
   RestartScheme restarts = RestartScheme::None;
   std::vector<std::string> keys;  // prefixes of the parameters to move; empty: those of the task

@@ -107,7 +107,8 @@ class World {
   float jointAngle(RobotHandle robot, model::JointId joint) const;         // rad
   float jointAngleDegrees(RobotHandle robot, model::JointId joint) const;  // as the perceptor computes it
 
-  // Positions, angles and speeds that are not finite numbers are ignored by all of these.
+  // Positions, angles and speeds that are not finite numbers are ignored by all of these, but not by those
+  // that set a whole state.
 
   /// Rigid move: torso to `position`, rotation and joints kept, all velocities 0. Sleeping bodies stay
   /// asleep.
@@ -175,9 +176,12 @@ class World {
 
   // -- state
   // ----------------------------------------------------------------------------------------------------
-  /// The full state; restoring it into a world with the same settings (this one or another) continues
-  /// bit-exactly. Solver and threads may differ: the state does not depend on them.
+  /// The full state between two cycles; restoring it into a world with the same settings (this one or
+  /// another) continues bit-exactly. Solver and threads may differ: the state does not depend on them.
+  /// Placements that are deferred and not executed yet are no part of it.
   std::vector<std::uint8_t> save() const;
+  /// Throws std::runtime_error if `state` has another format, length, count or name of a part than a saved
+  /// one; the world is then good for nothing but another restore(). Other damage is not noticed.
   void restore(std::span<const std::uint8_t> state);
   /// Hash of all positions and velocities, for determinism checks.
   std::uint64_t signature() const;

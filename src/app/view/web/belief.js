@@ -61,7 +61,9 @@ export class Belief {
       const middle = (low + high + 1) >> 1;
       if (cycles[middle].game_time <= time + 1e-3) low = middle; else high = middle - 1;
     }
-    return Math.abs(cycles[low].game_time - time) < kLongestGap ? cycles[low] : null;
+    // While the clock stands, before a kick-off, it does not tell which of many cycles belongs to the picture.
+    const stands = [low - 1, low + 1].some(i => cycles[i] && cycles[i].game_time === cycles[low].game_time);
+    return !stands && Math.abs(cycles[low].game_time - time) < kLongestGap ? cycles[low] : null;
   }
 
   async fetch(slot) {
