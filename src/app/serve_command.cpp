@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -33,8 +32,6 @@ struct ServeArguments {
   bool verbose = false;
   std::string solver = "exact";
 };
-
-constexpr double kLongestTimeout = 1e9;  // s; ten times as much does not fit into the clock's nanoseconds
 
 constexpr const char* kExamples = R"(Examples:
   nonet serve                                    real time, ports 3100 and 3200, as the league's server
@@ -74,7 +71,6 @@ int runServe(ServeArguments& arguments) {
   if (arguments.verbose) spdlog::set_level(spdlog::level::debug);
   arguments.server.lockStep = arguments.sync;
   arguments.server.realTime = arguments.realTime || (!arguments.sync && !arguments.freeRun);
-  arguments.server.answerTimeout = std::min(arguments.server.answerTimeout, kLongestTimeout);
   arguments.server.handleSignals = true;
   sim::Server server(settings, arguments.seed, arguments.server);
   spdlog::info("server: agents on port {}, monitors on port {} of {}, {}{}, seed {}", server.agentPort(),

@@ -70,7 +70,7 @@ void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoi
       const double direction = wrapAngle(fan.middle + kStep * i);
       const Vector2 target = s.ball() + length * unitVector(direction);
       double value = valueOf(head, direction, length);
-      if (present && std::abs(angleDifference(direction, *present)) < kSameKick) value += p.keep;
+      if (isSameKick(present, direction)) value += p.keep;
       if (record != nullptr) record->add(target, value);
       if (value <= best.value) continue;
       best = {true, target, value, kick.name};
@@ -84,6 +84,10 @@ std::optional<double> presentKick(const Situation& s) {
   const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
   if (kick == nullptr) return std::nullopt;
   return directionOf(s.world.self.X_FR.rotate(kick->target - kick->ball));
+}
+
+bool isSameKick(const std::optional<double>& present, double direction) {
+  return present && std::abs(angleDifference(direction, *present)) < kSameKick;
 }
 
 double opponentsTime(const Situation& s, const Vector2& p_F) {

@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
-#include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/team/ball_choice.h"
 #include "nonet/team/ball_play.h"
 #include "nonet/team/play_time.h"
 
@@ -13,7 +12,6 @@ namespace nonet::team {
 namespace {
 
 constexpr int kPlacesAside = 3;  // in the goal, on either side of the middle
-constexpr double kSame = 0.2;    // rad, between directions of one shot
 
 // The probability that the ball crosses the line fast, between the posts and below the bar.
 double scores(const world::WorldState& world, const motion::KickHead& kick, const Vector2& way,
@@ -36,8 +34,7 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   std::pair<bool, double> most{false, 0.0};
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
-    const bool keeps = present && std::abs(angleDifference(*present, directionOf(place - ball))) < kSame;
-    const double share = keeps ? p.keep : 1.0;
+    const double share = isSameKick(present, directionOf(place - ball)) ? p.keep : 1.0;
     for (const motion::KickOption& kick : kicks) {
       if (kick.foot != model::Side::Left || !kick.head.isStraight() || !kick.head.hasRoom(nearest)) continue;
       const double hits = scores(world, kick.head, place - ball, p);

@@ -34,6 +34,9 @@ BallChoice chooseAction(const Situation& situation, Candidates* record = nullptr
 /// The direction of the ball's way in the kick that motion was asked for last, rad, own field frame.
 std::optional<double> presentKick(const Situation& situation);
 
+/// A kick in this direction is the `present` one, if there is any; rad, own field frame.
+bool isSameKick(const std::optional<double>& present, double direction);
+
 /// s until an opponent can be at p_F; one that lies rises first. Infinite if none is known.
 double opponentsTime(const Situation& situation, const Vector2& p_F);
 

@@ -42,12 +42,8 @@ class KickTask : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    agent::AgentSettings agent;
-    agent.robotType = settings.robotType;
-    agent.parameters = parameters;
-    agent.skillFolder = settings.dataFolder + "/skills";
-    sim::Settings server;
-    server.quickSolver = settings.quickSolver;
+    const agent::AgentSettings agent = agentOf(parameters, settings);
+    const sim::Settings server = serverOf(settings);
     const motion::KickHead head = kickHead(agent, kick_);
     Random random = Random(seed).fork(6);
     const int first = random.uniform() < 0.5 ? 0 : 5;

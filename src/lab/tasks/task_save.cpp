@@ -29,12 +29,8 @@ class SaveTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    agent::AgentSettings goalie;
-    goalie.robotType = settings.robotType;
-    goalie.parameters = parameters;
-    goalie.skillFolder = settings.dataFolder + "/skills";
-    sim::Settings server;
-    server.quickSolver = settings.quickSolver;
+    const agent::AgentSettings goalie = agentOf(parameters, settings);
+    const sim::Settings server = serverOf(settings);
     Random random = Random(seed).fork(8);
     double rolling = 0.0, flying = 0.0, falls = 0.0, fitness = 0.0;
     for (int i = 0; i < kShots; ++i) {

@@ -90,10 +90,7 @@ class SwingTask final : public Task {
 
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
-    agent::AgentSettings agent;
-    agent.robotType = settings.robotType;
-    agent.parameters = parameters;
-    agent.skillFolder = settings.dataFolder + "/skills";
+    const agent::AgentSettings agent = agentOf(parameters, settings);
     SwingTrial trial(agent, kick_, settings.quickSolver);
     const Starts& starts = startsOf(settings);
     const motion::KickHead head = trial.head();

@@ -1,5 +1,6 @@
 #include "nonet/sim/server/server.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <asio/post.hpp>
@@ -14,6 +15,7 @@ namespace nonet::sim {
 namespace {
 
 const auto kCycle = std::chrono::round<SteadyClock::duration>(Seconds(kCycleTime));
+constexpr double kLongestTimeout = 1e9;      // s; ten times as much does not fit into the clock's nanoseconds
 constexpr std::chrono::seconds kSilence{2};  // after which an agent counts as silent
 
 }  // namespace
@@ -105,8 +107,8 @@ void Server::Implementation::readOn() {
 }
 
 void Server::Implementation::waitForAnswers() {
-  const auto deadline =
-      SteadyClock::now() + std::chrono::round<SteadyClock::duration>(Seconds(serverSettings.answerTimeout));
+  const Seconds patience(std::min(serverSettings.answerTimeout, kLongestTimeout));
+  const auto deadline = SteadyClock::now() + std::chrono::round<SteadyClock::duration>(patience);
   const auto allAnswered = [this] {
     return std::all_of(agents.begin(), agents.end(), [](const auto& link) {
       return !link->owesAnswer || link->givenUp || link->connection->dead() || link->hasAnswered();

@@ -55,6 +55,16 @@ class RunFolder : public testing::Test {
     }
   }
 
+  // A run of its own that ends after so many generations, on the disk.
+  std::string ended(const std::string& name, int generations, int threads = 1) const {
+    OptimizationSettings some = settings();
+    some.generations = generations;
+    const std::string folder = root_ + "/" + name;
+    auto run = OptimizationRun::create(folder, some, "");
+    finish(run, threads);
+    return folder;
+  }
+
   static std::string bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::stringstream text;
@@ -110,34 +120,22 @@ TEST_F(RunFolder, KilledAtAnyPointAndResumedEndsInTheSameBytes) {
 }
 
 TEST_F(RunFolder, DoesNotDependOnTheThreadsAndCanBeExtended) {
-  auto one = OptimizationRun::create(root_ + "/one", settings(), "");
-  finish(one, 1);
-  OptimizationSettings shorter = settings();
-  shorter.generations = 33;
-  {
-    auto three = OptimizationRun::create(root_ + "/three", shorter, "");
-    finish(three, 3);
-  }
-  auto longer = OptimizationRun::resume(root_ + "/three", "", settings().generations);
+  const std::string one = ended("one", settings().generations);
+  const std::string three = ended("three", 33, 3);
+  auto longer = OptimizationRun::resume(three, "", settings().generations);
   finish(longer, 2);
-  expectSameRun(root_ + "/one", root_ + "/three");
+  expectSameRun(one, three);
 }
 
 // A torn last line and a best.toml from after the checkpoint are what a kill between two writes leaves.
 TEST_F(RunFolder, ForgetsWhatWasWrittenAfterTheCheckpoint) {
-  auto whole = OptimizationRun::create(root_ + "/whole", settings(), "");
-  finish(whole, 1);
-  OptimizationSettings half = settings();
-  half.generations = 60;
-  {
-    auto run = OptimizationRun::create(root_ + "/torn", half, "");
-    finish(run, 1);
-  }
-  std::ofstream(root_ + "/torn/generations.jsonl", std::ios::app) << "{\"generation\":61,\"best";
-  std::ofstream(root_ + "/torn/best.toml", std::ios::app) << "junk";
-  auto resumed = OptimizationRun::resume(root_ + "/torn", "", settings().generations);
+  const std::string whole = ended("whole", settings().generations);
+  const std::string torn = ended("torn", 60);
+  std::ofstream(torn + "/generations.jsonl", std::ios::app) << "{\"generation\":61,\"best";
+  std::ofstream(torn + "/best.toml", std::ios::app) << "junk";
+  auto resumed = OptimizationRun::resume(torn, "", settings().generations);
   finish(resumed, 1);
-  expectSameRun(root_ + "/whole", root_ + "/torn");
+  expectSameRun(whole, torn);
 }
 
 // A run that ends between two regular validations: the last generations count as well.
@@ -171,33 +169,17 @@ TEST_F(RunFolder, TheLastGenerationIsValidated) {
 }
 
 TEST_F(RunFolder, ALongerRunForgetsTheLastValidationOfAShorterOne) {
-  OptimizationSettings longer = settings();
-  longer.generations = 13;
-  {
-    auto whole = OptimizationRun::create(root_ + "/whole", longer, "");
-    finish(whole, 1);
-  }
-  OptimizationSettings shorter = settings();
-  shorter.generations = 4;
-  {
-    auto run = OptimizationRun::create(root_ + "/extended", shorter, "");
-    finish(run, 1);
-  }
+  const std::string whole = ended("whole", 13);
+  const std::string extended = ended("extended", 4);
   for (const int generations : {7, 13}) {
-    auto run = OptimizationRun::resume(root_ + "/extended", "", generations);
+    auto run = OptimizationRun::resume(extended, "", generations);
     finish(run, 1);
   }
-  expectSameRun(root_ + "/whole", root_ + "/extended");
+  expectSameRun(whole, extended);
 }
 
 TEST_F(RunFolder, CheckpointsWithoutThePopulationOfTheIncumbentAreRead) {
-  OptimizationSettings five = settings();
-  five.generations = 5;
-  const std::string folder = root_ + "/run";
-  {
-    auto run = OptimizationRun::create(folder, five, "");
-    finish(run, 1);
-  }
+  const std::string folder = ended("run", 5);
   const std::string best = bytes(folder + "/best.toml");
   auto state = nlohmann::json::parse(bytes(folder + "/checkpoint.json"));
   ASSERT_EQ(state.at("incumbent").erase("population"), 1U);
