@@ -4,6 +4,7 @@
   python3 scripts/screen.py CHANGES --out logs/screen --pairs 200
   python3 scripts/screen.py CHANGES --out logs/screen --against own wall ../before --share 0.3
   python3 scripts/screen.py CHANGES --out logs/screen --scrums 8 --pairs 500 --type 2
+  python3 scripts/screen.py CHANGES --out logs/screen --sieges 8 --pairs 500
   python3 scripts/screen.py --out logs/screen                                only the table of what is there
 
 A line of CHANGES is a name and the parameters of side A that make the change; "#" begins a comment, "|" another way
@@ -22,7 +23,8 @@ command. Games are played on the quick stepper unless --exact is given.
 
 With --scrums a pair is so many scrums instead of two games (`nonet ball-report --skill scrum`): three robots a side
 around a contested ball, and what counts is how many metres it gains. That tells far more in the same time, of what
-is done near the ball and of nothing else. --against then names data folders, or own."""
+is done near the ball and of nothing else. --against then names data folders, or own. With --sieges it is so many attacks
+on a wall (`--skill siege`: four of ours, ball 3 to 10 m before the goal), and what counts is the share with a goal."""
 import argparse
 import concurrent.futures
 import hashlib
@@ -159,23 +161,24 @@ def output_of(command):
     return done.stdout
 
 
-def scrums(pair, made, opponent, changes, settings):
-    """Some scrums by `nonet ball-report`: their record."""
-    command = [settings.nonet, "ball-report", "--skill", "scrum", "--trials", str(settings.scrums), "--threads", "1",
-               "--type", str(settings.type), "--seed", str(pair), "--json"]
+def scenes(pair, made, opponent, changes, settings):
+    """Some scrums or sieges by `nonet ball-report`: their record."""
+    scene = "scrum" if settings.scrums else "siege"
+    command = [settings.nonet, "ball-report", "--skill", scene, "--trials", str(settings.scrums or settings.sieges),
+               "--threads", "1", "--type", str(settings.type), "--seed", str(pair), "--json"]
     command += [] if settings.exact else ["--quick"]
     command += [] if opponent == "own" else ["--opponent-data", opponent]
     for assignment in (a for name in made for a in changes[name]):
         command += ["--set", assignment]
     report = json.loads(output_of(command))
     return {"pair": pair, "against": opponent, "changes": made,
-            "scrum": {column: report[key]["mean"] for column, key in SCRUM_MEASURES.items()}}
+            scene: {column: report[key]["mean"] for column, key in SCENES[scene].items()}}
 
 
 def play(pair, made, opponent, changes, settings):
     """One pair of games by `nonet series`: its record."""
-    if settings.scrums:
-        return scrums(pair, made, opponent, changes, settings)
+    if settings.scrums or settings.sieges:
+        return scenes(pair, made, opponent, changes, settings)
     folder = settings.out / "pairs" / str(pair)
     command = [settings.nonet, "series", "own", opponent, "--pairs", "1", "--jobs", "1", "--seed", str(pair),
                "--minutes", str(settings.minutes), "--out", str(folder)]
@@ -227,13 +230,23 @@ def read_records(path):
     return records
 
 
-SCRUM_MEASURES = {  # column: key in the report
-    "gained": "scrum_m",
-    "territory": "scrum_territory_m",
-    "falls": "scrum_falls",
-    "their falls": "scrum_opponent_falls",
-    "charging": "scrum_charges",
-    "theirs": "scrum_opponent_charges",
+SCENES = {  # column: key in the report; the first one decides
+    "scrum": {
+        "gained": "scrum_m",
+        "territory": "scrum_territory_m",
+        "falls": "scrum_falls",
+        "their falls": "scrum_opponent_falls",
+        "charging": "scrum_charges",
+        "theirs": "scrum_opponent_charges",
+    },
+    "siege": {
+        "goals": "siege_goals",
+        "corners": "siege_corners",
+        "out": "siege_out",
+        "lost": "siege_lost",
+        "charging": "siege_charged",
+        "theirs": "siege_opponent_charged",
+    },
 }
 
 MEASURES = {  # of side A in one game, from its statistics, the goals against it and what makes ten minutes of a game
@@ -278,10 +291,15 @@ def also_table(pairs, names, what):
     return "\n".join(line.rstrip() for line in lines)
 
 
+def scene_of(record):
+    """Its name and its values; of a pair of games None."""
+    return next(((name, record[name]) for name in SCENES if name in record), None)
+
+
 def value_of(record):
-    """What decides: metres in a scrum, or goals in ten minutes."""
-    if "scrum" in record:
-        return record["scrum"]["gained"]
+    """What decides: metres in a scrum, the share of sieges with a goal, or goals in ten minutes."""
+    if scene := scene_of(record):
+        return next(iter(scene[1].values()))
     return 10 / record["minutes"] * sum(a - b for a, b in record["goals"]) / len(record["goals"])
 
 
@@ -290,17 +308,20 @@ def table(records, names, out):
     games = [(r["against"], set(r["changes"]), value_of(r)) for r in records]
     opponents = sorted({g[0] for g in games})
     found = effects(games, names, opponents)
-    in_scrums = any("scrum" in r for r in records)
-    what = "draws of scrums; metres gained" if in_scrums else "pairs of games; goals per ten minutes"
+    scene = next((found[0] for found in map(scene_of, records) if found), None)
+    what = {"scrum": "draws of scrums; metres gained", "siege": "draws of sieges; share with a goal",
+            None: "pairs of games; goals per ten minutes"}[scene]
+    digits = 3 if scene == "siege" else 2
     lines = [f"{len(games)} {what} that each change adds, standard error, their ratio"]
     found.sort(key=lambda e: -e[1] / max(e[2], 1e-9))
     for name, effect, error in found:
         made = sum(name in g[1] for g in games)
-        lines.append(f"{name:16} {effect:+6.2f} {error:5.2f} {effect / max(error, 1e-9):+5.1f}   in {made} pairs")
+        lines.append(f"{name:16} {effect:+6.{digits}f} {error:5.{digits}f} {effect / max(error, 1e-9):+5.1f}   "
+                     f"in {made} pairs")
     names = [name for name, _, _ in found]
-    if in_scrums:
-        pairs = [(r, {c: value for c, value in r["scrum"].items() if c != "gained"}) for r in records]
-        also = also_table(pairs, names, "draws: what else they change in a scrum, for a side")
+    if scene:
+        pairs = [(r, dict(list(r[scene].items())[1:])) for r in records]
+        also = also_table(pairs, names, f"draws: what else they change in a {scene}, for a side")
     else:
         pairs = [(r, measured(out / "pairs" / str(r["pair"]))) for r in records]
         also = also_table([(r, values) for r, values in pairs if values], names,
@@ -343,6 +364,11 @@ def self_test():
         values = measured(pathlib.Path(folder))
     expected = {"against": 2, "on target": 6, "passes": 4, "falls": 8, "charging": 0, "possession": 60}
     assert values == expected, values
+    scene = {"changes": [], "siege": {"goals": 0.25, "out": 0.5}}
+    assert value_of(scene) == 0.25 and value_of({"changes": [], "scrum": {"gained": -1.5, "falls": 2}}) == -1.5
+    sieges = [{"against": "own", "changes": ["x"] if i % 2 else [], "siege": {"goals": 0.2 + 0.1 * (i % 2), "out": i}}
+              for i in range(9)]
+    assert "x                +0.100" in table(sieges, ["x"], None), table(sieges, ["x"], None)
     test_fingerprint()
     test_changes()
     print("screen: known effects found")
@@ -403,8 +429,9 @@ def screen(settings):
     changes = read_changes(settings.changes, lambda assignments: refusal(assignments, settings.nonet))
     plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
             "exact": settings.exact, "fingerprint": settings.fingerprint}
-    if settings.scrums:
-        plan |= {"scrums": settings.scrums, "type": settings.type}
+    for scene in ("scrums", "sieges"):
+        if count := getattr(settings, scene):
+            plan |= {scene: count, "type": settings.type}
     settings.out.mkdir(parents=True, exist_ok=True)
     kept = settings.out / "plan.json"
     if kept.exists() and json.loads(kept.read_text()) != plan:
@@ -425,9 +452,11 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, help="folder; a screening that is there already goes on")
     parser.add_argument("--pairs", type=int, default=100, help="pairs of games (100)")
     parser.add_argument("--minutes", type=float, default=3, help="game time of one game (3)")
-    parser.add_argument("--against", nargs="+", help="sides B, in turn (own wall; in scrums own)")
-    parser.add_argument("--scrums", type=int, default=0, help="so many scrums instead of a pair of games")
-    parser.add_argument("--type", type=int, default=2, help="of the robots in scrums (2)")
+    parser.add_argument("--against", nargs="+", help="sides B, in turn (own wall; in scenes own)")
+    scene = parser.add_mutually_exclusive_group()
+    scene.add_argument("--scrums", type=int, default=0, help="so many scrums instead of a pair of games")
+    scene.add_argument("--sieges", type=int, default=0, help="so many sieges instead")
+    parser.add_argument("--type", type=int, default=2, help="of the robots in scrums and sieges (2)")
     parser.add_argument("--share", type=float, default=0.5, help="of the pairs in which a change is made (0.5)")
     parser.add_argument("--seed", type=int, default=1, help="of the first pair; each has the next one (1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="pairs at a time (one per core)")
@@ -439,7 +468,7 @@ def main():
         return self_test()
     if not settings.out:
         parser.error("needs --out")
-    settings.against = settings.against or (["own"] if settings.scrums else ["own", "wall"])
+    settings.against = settings.against or (["own"] if settings.scrums or settings.sieges else ["own", "wall"])
     if settings.changes:
         screen(settings)
     elif not (settings.out / "plan.json").exists():

@@ -1,9 +1,13 @@
 // nonet ball-report: the ball at the feet, and the run.
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include "nonet/agent/agent_setup.h"
@@ -25,12 +29,42 @@ struct BallReportArguments {
   lab::BallReportSettings settings;
   std::string data;
   std::string opponentData;
+  std::vector<std::string> opponentParameters;
   std::string svg;
   bool json = false;
 };
 
-bool hasOpponents(const std::string& skill) {
-  return skill == "all" || skill == "duel" || skill == "attack" || skill == "scrum" || skill == "loose";
+// Opponents are as their data folder has them; in the siege they are a wall.
+void addOpponents(const BallReportArguments& arguments, const std::string& data,
+                  lab::BallReportSettings& settings) {
+  const std::string opponentData =
+      arguments.opponentData.empty()
+          ? data
+          : agent::dataFolder(arguments.opponentData, "--opponent-data", executablePath(), "");
+  agent::AgentChoice opponent;
+  opponent.robotType = arguments.choice.robotType;
+  opponent.parameterFiles = arguments.opponentParameters;
+  agent::AgentChoice goalie = opponent;
+  goalie.robotType = 0;
+  settings.opponent = agent::makeAgentSettings(opponent, opponentData);
+  settings.goalie = agent::makeAgentSettings(goalie, opponentData);
+  if (arguments.opponentParameters.empty())
+    opponent.parameterFiles = goalie.parameterFiles = {data + "/params/variants/wall.toml"};
+  settings.wall = {agent::makeAgentSettings(goalie, opponentData),
+                   agent::makeAgentSettings(opponent, opponentData)};
+}
+
+void refuseOpponents(const BallReportArguments& arguments, const std::string& skill) {
+  const std::vector<std::string> names = lab::ballSkillsWithOpponents();
+  if (skill == "all" || std::ranges::find(names, skill) != names.end()) return;
+  for (const auto& [option, isGiven] :
+       {std::pair{"--opponent-data", !arguments.opponentData.empty()},
+        std::pair{"--opponent-params", !arguments.opponentParameters.empty()}}) {
+    if (!isGiven) continue;
+    throw std::runtime_error(
+        fmt::format("{}: only {} have opponents: leave it out, or choose one of these or all", option,
+                    fmt::join(names, ", ")));
+  }
 }
 
 int run(const BallReportArguments& arguments) {
@@ -38,23 +72,11 @@ int run(const BallReportArguments& arguments) {
   lab::BallReportSettings settings = arguments.settings;
   if (!arguments.svg.empty() && settings.skill != "slalom" && settings.skill != "all")
     throw std::runtime_error("--svg draws the slalom only: leave it out, or choose --skill slalom or all");
-  if (!arguments.opponentData.empty() && !hasOpponents(settings.skill))
-    throw std::runtime_error(
-        "--opponent-data: only duel, attack, scrum and loose have opponents: leave it out, or choose one of "
-        "these or all");
+  refuseOpponents(arguments, settings.skill);
   settings.seed = arguments.choice.seed;
   const std::string data = dataFolder(arguments.data);
   settings.agent = agent::makeAgentSettings(arguments.choice, data);
-  agent::AgentChoice opponent;
-  opponent.robotType = arguments.choice.robotType;
-  const std::string opponentData =
-      arguments.opponentData.empty()
-          ? data
-          : agent::dataFolder(arguments.opponentData, "--opponent-data", executablePath(), "");
-  settings.opponent = agent::makeAgentSettings(opponent, opponentData);
-  agent::AgentChoice goalie;
-  goalie.robotType = 0;
-  settings.goalie = agent::makeAgentSettings(goalie, opponentData);
+  addOpponents(arguments, data, settings);
   Console console(stderr);
   settings.progress = console.trials();
   const lab::BallReport report = lab::measureBallSkills(settings);
@@ -70,16 +92,22 @@ int run(const BallReportArguments& arguments) {
 }  // namespace
 
 void addBallReportCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("ball-report",
-                                         "Measure seeded ball skills: approach, dribble, slalom, drive, "
-                                         "duel, attack, scrum, loose ball, receive, run with its stop");
+  CLI::App* command =
+      app.add_subcommand("ball-report",
+                         "Measure seeded ball skills: approach, dribble, slalom, drive, "
+                         "duel, attack, siege, scrum, loose ball, receive, run with its stop");
   const auto arguments = std::make_shared<BallReportArguments>();
   lab::BallReportSettings& settings = arguments->settings;
   addAgentOptions(*command, arguments->choice, arguments->data);
   command->add_option("--skill", settings.skill, "One of them, or all");
   command->add_option("--opponent-data", arguments->opponentData,
-                      "The same for the opponents in duel, attack, scrum and loose; without it: that of "
-                      "--data, without --set");
+                      "The same for opponents; without it: that of --data, without --set");
+  command
+      ->add_option("--opponent-params", arguments->opponentParameters,
+                   "A parameter file for opponents; given again, the later one lies over the earlier. "
+                   "Without it they are a wall in the siege: params/variants/wall.toml of --data")
+      ->check(CLI::ExistingFile)
+      ->allow_extra_args(false);
   command->add_option("--trials", settings.trials, "Trials of each skill")->check(CLI::Range(1, 100000));
   command->add_option("--seed", arguments->choice.seed, "Seed of all trials");
   command->add_option("--threads", settings.threads, "Threads, 0 = all processors")->check(threadCount());

@@ -277,7 +277,7 @@ TEST(CommandLine, WhatCannotBeMeantIsRefused) {
       {{"skill", "play", "kick_quick", "--ball", "1e308,0"}, "not in range"},
       {{"kick-report", "--kick", "kick_power", "--stop"}, "--kick any"},
       {{"ball-report", "--skill", "run", "--opponent-data", NONET_SOURCE_DIR},
-       "duel, attack, scrum and loose"},
+       "only duel, attack, siege, scrum, loose have opponents"},
       {{"play", "--wait", "nan"}, "no finite number"},
       {{"play", "--start=nan,1"}, "finite"},
       {{"soak", "--effectors", "nan"}, "no finite number"},

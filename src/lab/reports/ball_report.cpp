@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nonet/lab/trial/scrum_trial.h"
+#include "nonet/lab/trial/siege_trial.h"
 #include "nonet/math/random.h"
 
 #include "lab/common/parallel.h"
@@ -143,6 +144,24 @@ BallSkillReport measureAttack(const BallReportSettings& s, const sim::Settings& 
            "attack_s", "s until the goal", trials, [](const auto& t) { return t.simulated; }, goal)});
 }
 
+BallSkillReport measureSiege(const BallReportSettings& s, const sim::Settings& server) {
+  const auto trials =
+      repeated(s, "siege", [&](auto seed) { return siegeOnce(s.agent, s.wall, server, seed); });
+  const auto row = [&](const char* key, const char* what, bool Siege::*value) {
+    return figure(std::string("siege_") + key, what, trials, [value](const Siege& t) { return t.*value; });
+  };
+  return reportOf(
+      "siege", trials,
+      {row("goals", "share with a goal of the four", &Siege::goal),
+       row("corners", "share with a corner", &Siege::corner),
+       row("out", "share out of the field", &Siege::out), row("lost", "share driven away", &Siege::lost),
+       row("charged", "share with one charging", &Siege::charged),
+       row("opponent_charged", "share with one of the wall", &Siege::opponentCharged),
+       figure(
+           "siege_s", "s until the goal", trials, [](const auto& t) { return t.simulated; },
+           [](const Siege& t) { return t.goal; })});
+}
+
 BallSkillReport measureScrum(ScrumBall ball, const BallReportSettings& s, const sim::Settings& server) {
   const std::string name = ball == ScrumBall::Loose ? "loose" : "scrum";
   const auto trials =
@@ -185,6 +204,7 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
   if (skill == "drive") return measureDrive(s, server);
   if (skill == "duel") return measureDuel(s, server);
   if (skill == "attack") return measureAttack(s, server);
+  if (skill == "siege") return measureSiege(s, server);
   if (skill == "scrum") return measureScrum(ScrumBall::Contested, s, server);
   if (skill == "loose") return measureScrum(ScrumBall::Loose, s, server);
   if (skill == "receive") return measureReceiving(s, server);
@@ -196,7 +216,12 @@ BallSkillReport measure(const std::string& skill, const BallReportSettings& s, c
 }  // namespace
 
 std::vector<std::string> ballSkillNames() {
-  return {"approach", "dribble", "slalom", "drive", "duel", "attack", "scrum", "loose", "receive", "run"};
+  return {"approach", "dribble", "slalom", "drive",   "duel", "attack",
+          "siege",    "scrum",   "loose",  "receive", "run"};
+}
+
+std::vector<std::string> ballSkillsWithOpponents() {
+  return {"duel", "attack", "siege", "scrum", "loose"};
 }
 
 BallReport measureBallSkills(const BallReportSettings& settings) {

@@ -3,7 +3,8 @@
 // towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a self-collision, a miss
 // or a ball that leaves by more than ten degrees. Of a kick that goes as far as is asked for, the error
 // counts instead of the distance, of a chip the height. played_NAME: the same of kick_NAME with the ball as
-// play leaves it, often rolling away.
+// play leaves it, often rolling away. aimed_NAME: the same as that, for shots: what goes aside counts four
+// times, as from six metres on it decides whether there is a goal.
 #include <cmath>
 #include <string>
 
@@ -62,8 +63,8 @@ class KickTask : public Task {
       const Kick kick = kickOnce(agent, server, scene, random.next());
       const bool failed =
           kick.fell || kick.selfCollided || kick.missed() || std::abs(kick.direction()) > kStraight;
-      const double gained =
-          worthOfWay(kick, head, scene.distance) - std::abs(kick.aside) - kPerSecond * kick.time;
+      const double gained = worthOfWay(kick, head, scene.distance) - asideCounts() * std::abs(kick.aside) -
+                            kPerSecond * kick.time;
       result.fitness += (failed ? kPenalty : gained) / kKicks;
       distance += kick.forward / kKicks;
       aside += std::abs(kick.aside) / kKicks;
@@ -78,6 +79,7 @@ class KickTask : public Task {
   }
 
  private:
+  virtual double asideCounts() const { return 1.0; }
   // Of the trial's i-th kick.
   virtual void roll(int i, KickScene& scene, Random& /*random*/) const {
     scene.rolling = i % 2 == 0 ? 0.0 : kRolling;
@@ -86,9 +88,10 @@ class KickTask : public Task {
   std::string kick_;
 };
 
-class PlayedKickTask final : public KickTask {
+class PlayedKickTask : public KickTask {
  public:
-  explicit PlayedKickTask(const std::string& name) : KickTask("kick_" + name), name_("played_" + name) {}
+  explicit PlayedKickTask(const std::string& name, const std::string& kind = "played_")
+      : KickTask("kick_" + name), name_(kind + name) {}
 
   std::string_view name() const override { return name_; }
   std::string_view description() const override {
@@ -105,6 +108,18 @@ class PlayedKickTask final : public KickTask {
   std::string name_;
 };
 
+class AimedKickTask final : public PlayedKickTask {
+ public:
+  explicit AimedKickTask(const std::string& name) : PlayedKickTask(name, "aimed_") {}
+
+  std::string_view description() const override {
+    return "the same with the ball as play leaves it; what goes aside counts four times: for shots";
+  }
+
+ private:
+  double asideCounts() const override { return 4.0; }
+};
+
 }  // namespace
 
 const Task& kickTask(std::string_view name) {
@@ -113,6 +128,10 @@ const Task& kickTask(std::string_view name) {
 
 const Task& playedKickTask(std::string_view name) {
   return taskNamed<PlayedKickTask>(name);
+}
+
+const Task& aimedKickTask(std::string_view name) {
+  return taskNamed<AimedKickTask>(name);
 }
 
 }  // namespace nonet::lab

@@ -26,6 +26,7 @@ std::span<const Task* const> registeredTasks() {
       &swingTask("power"),
       &kickTask("kick_power"),
       &playedKickTask("power"),
+      &aimedKickTask("power"),
       &diveTask(),
       &blockTask(),
       &saveTask(),
@@ -45,6 +46,7 @@ const Task& findTask(std::string_view name) {
   if (name.starts_with("kick_")) return kickTask(name);
   if (name.starts_with("swing_")) return swingTask(name.substr(std::string_view("swing_").size()));
   if (name.starts_with("played_")) return playedKickTask(name.substr(std::string_view("played_").size()));
+  if (name.starts_with("aimed_")) return aimedKickTask(name.substr(std::string_view("aimed_").size()));
   std::string known;
   for (const Task* task : registeredTasks()) {
     if (task->name() == name) return *task;

@@ -27,6 +27,7 @@ const Task& getupBackTask();
 const Task& kickTask(std::string_view name);
 /// The kick kick_NAME with the ball as play leaves it.
 const Task& playedKickTask(std::string_view name);
+const Task& aimedKickTask(std::string_view name);
 /// "power": the same kick from the moment it begins.
 const Task& swingTask(std::string_view name);
 const Task& diveTask();

@@ -31,8 +31,27 @@ TEST(KickTasks, AKickAsPlayedIsTheSameKickAtOtherBalls) {
   EXPECT_GT(once.measures.front().second, 2.0);
 }
 
+double measure(const TaskResult& result, const std::string& name) {
+  for (const auto& [key, value] : result.measures) {
+    if (key == name) return value;
+  }
+  ADD_FAILURE() << "no measure " << name;
+  return 0.0;
+}
+
+// Without a failure the two differ by three times what goes aside.
+TEST(KickTasks, AnAimedKickPaysFourTimesForWhatGoesAside) {
+  EXPECT_EQ(findTask("aimed_power").name(), "aimed_power");
+  const TaskResult played = kickedFour("played_power");
+  const TaskResult aimed = kickedFour("aimed_power");
+  ASSERT_EQ(measure(played, "failures"), 0.0);
+  ASSERT_GT(measure(played, "aside_m"), 0.0);
+  EXPECT_EQ(measure(aimed, "aside_m"), measure(played, "aside_m"));
+  EXPECT_NEAR(aimed.fitness, played.fitness - 3.0 * measure(played, "aside_m"), 1e-9);
+}
+
 TEST(KickTasks, NeedAKick) {
-  for (const char* task : {"kick_nothing", "played_nothing"})
+  for (const char* task : {"kick_nothing", "played_nothing", "aimed_nothing"})
     EXPECT_THROW(kickedFour(task), std::runtime_error) << task;
 }
 

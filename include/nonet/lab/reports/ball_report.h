@@ -16,6 +16,7 @@ struct BallReportSettings {
   agent::AgentSettings agent;
   agent::AgentSettings opponent;  // in the duel, before the goal and in scrums
   agent::AgentSettings goalie;    // the opponents'
+  Defence wall;                   // those of the siege
   std::string skill = "all";      // or one of ballSkillNames()
   int trials = 50;                // of each skill
   std::uint64_t seed = 1;
@@ -46,8 +47,10 @@ struct BallReport {
   std::vector<Dribble> slaloms;  // for the picture
 };
 
-/// approach, dribble, slalom, drive, duel, attack, scrum, loose, receive, run.
+/// approach, dribble, slalom, drive, duel, attack, siege, scrum, loose, receive, run.
 std::vector<std::string> ballSkillNames();
+/// Those of them with opponents.
+std::vector<std::string> ballSkillsWithOpponents();
 
 /// Throws std::runtime_error that names the skills if the one wanted is unknown.
 BallReport measureBallSkills(const BallReportSettings& settings);
