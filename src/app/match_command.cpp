@@ -193,13 +193,15 @@ void addGameOptions(CLI::App* command, MatchArguments& arguments) {
 void addTeamOptions(CLI::App* command, MatchArguments& arguments) {
   lab::MatchSettings& match = arguments.settings.match;
   command->add_option("--left", match.left.name, "Name of the left team")->capture_default_str();
-  command->add_option("--right", match.right.name, "Name of the right team")->capture_default_str();
+  CLI::Option* alone = command->get_option("--alone");  // of a team that stays away nothing is asked
+  command->add_option("--right", match.right.name, "Name of the right team")
+      ->capture_default_str()
+      ->excludes(alone);
   command
       ->add_option("--left-params", match.left.parameterFiles,
                    "A parameter file of the left team; given again, the later one lies over the earlier")
       ->allow_extra_args(false)
       ->check(CLI::ExistingFile);
-  CLI::Option* alone = command->get_option("--alone");  // of a team that stays away nothing is asked
   command->add_option("--right-params", match.right.parameterFiles, "The same of the right team")
       ->allow_extra_args(false)
       ->check(CLI::ExistingFile)

@@ -267,6 +267,7 @@ TEST(CommandLine, WhatCannotBeMeantIsRefused) {
       {{"serve", "--monitor-port", "80000"}, "0 to 65535"},
       {{"view", "localhost:99999"}, "1 to 65535"},
       {{"match", "--alone", "--right-set", "team.ball.kick=false"}, "--alone"},
+      {{"match", "--alone", "--right", "Them"}, "--alone"},
       {{"play", "--draw-host", "localhost"}, "--draw"},
       {{"play", "--wait", "0"}, "--wait: must be more than 0"},
       {{"serve", "--answer-timeout", "0"}, "--answer-timeout: must be more than 0"},
