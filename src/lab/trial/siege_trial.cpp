@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kAttackers = 4;
 constexpr std::size_t kBacks = 6;
-constexpr int kFirstAttacker = 3;       // of the four
+constexpr int kFirstAttacker = 3;       // number
 constexpr double kSiegeTime = 25.0;     // s
 constexpr double kSiegeLost = 5.0;      // m
 constexpr double kNearestBall = 3.0;    // m, ball's place from the goal line
@@ -28,7 +28,7 @@ constexpr double kGoalieAhead = 0.6;    // m before its line
 constexpr double kRobotsApart = 0.5;    // m
 constexpr int kDraws = 40;              // until a robot is so far apart from the others
 
-// FreePlaces of robots, none of them upon another.
+// Places of robots, none of them upon another.
 class FreePlaces {
  public:
   Vector2 take(const std::function<Vector2()>& draw) {
