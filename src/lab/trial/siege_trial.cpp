@@ -81,8 +81,8 @@ GameSituation drawSiege(const agent::AgentSettings& agent, const Defence& defenc
     situation.players.push_back(fieldPlayer(agent, facingBall(place), {}));
     situation.players.back().agent.unum = kFirstAttacker + static_cast<int>(i);
   }
-  const Vector2 before = goal - Vector2(kGoalieAhead, 0.0);
-  GamePlayer goalie{defence.goalie, true, Pose2(places.take([&] { return before; }), kPi), {}};
+  const Vector2 guard = places.take([&]() -> Vector2 { return goal - Vector2(kGoalieAhead, 0.0); });
+  GamePlayer goalie{defence.goalie, true, Pose2(guard, kPi), {}};
   goalie.agent.unum = 1;
   situation.players.push_back(goalie);
   for (std::size_t i = 0; i < kBacks; ++i) {
