@@ -163,8 +163,8 @@ def output_of(command):
 
 def scenes(pair, made, opponent, changes, settings):
     """Some scrums or sieges by `nonet ball-report`: their record."""
-    scene = "scrum" if settings.scrums else "siege"
-    command = [settings.nonet, "ball-report", "--skill", scene, "--trials", str(settings.scrums or settings.sieges),
+    scene = settings.scene
+    command = [settings.nonet, "ball-report", "--skill", scene, "--trials", str(getattr(settings, scene + "s")),
                "--threads", "1", "--type", str(settings.type), "--seed", str(pair), "--json"]
     command += [] if settings.exact else ["--quick"]
     command += [] if opponent == "own" else ["--opponent-data", opponent]
@@ -177,7 +177,7 @@ def scenes(pair, made, opponent, changes, settings):
 
 def play(pair, made, opponent, changes, settings):
     """One pair of games by `nonet series`: its record."""
-    if settings.scrums or settings.sieges:
+    if settings.scene:
         return scenes(pair, made, opponent, changes, settings)
     folder = settings.out / "pairs" / str(pair)
     command = [settings.nonet, "series", "own", opponent, "--pairs", "1", "--jobs", "1", "--seed", str(pair),
@@ -429,9 +429,9 @@ def screen(settings):
     changes = read_changes(settings.changes, lambda assignments: refusal(assignments, settings.nonet))
     plan = {"changes": changes, "share": settings.share, "minutes": settings.minutes, "against": settings.against,
             "exact": settings.exact, "fingerprint": settings.fingerprint}
-    for scene in ("scrums", "sieges"):
-        if count := getattr(settings, scene):
-            plan |= {scene: count, "type": settings.type}
+    if settings.scene:
+        trials = settings.scene + "s"
+        plan |= {trials: getattr(settings, trials), "type": settings.type}
     settings.out.mkdir(parents=True, exist_ok=True)
     kept = settings.out / "plan.json"
     if kept.exists() and json.loads(kept.read_text()) != plan:
@@ -468,7 +468,8 @@ def main():
         return self_test()
     if not settings.out:
         parser.error("needs --out")
-    settings.against = settings.against or (["own"] if settings.scrums or settings.sieges else ["own", "wall"])
+    settings.scene = "scrum" if settings.scrums else "siege" if settings.sieges else None
+    settings.against = settings.against or (["own"] if settings.scene else ["own", "wall"])
     if settings.changes:
         screen(settings)
     elif not (settings.out / "plan.json").exists():

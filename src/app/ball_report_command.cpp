@@ -34,6 +34,16 @@ struct BallReportArguments {
   bool json = false;
 };
 
+lab::Defence defenceOf(int backType, const std::vector<std::string>& parameterFiles,
+                       const std::string& data) {
+  agent::AgentChoice back;
+  back.robotType = backType;
+  back.parameterFiles = parameterFiles;
+  agent::AgentChoice goalie = back;
+  goalie.robotType = 0;
+  return {agent::makeAgentSettings(goalie, data), agent::makeAgentSettings(back, data)};
+}
+
 // Opponents are as their data folder has them; in the siege they are a wall.
 void addOpponents(const BallReportArguments& arguments, const std::string& data,
                   lab::BallReportSettings& settings) {
@@ -41,17 +51,13 @@ void addOpponents(const BallReportArguments& arguments, const std::string& data,
       arguments.opponentData.empty()
           ? data
           : agent::dataFolder(arguments.opponentData, "--opponent-data", executablePath(), "");
-  agent::AgentChoice opponent;
-  opponent.robotType = arguments.choice.robotType;
-  opponent.parameterFiles = arguments.opponentParameters;
-  agent::AgentChoice goalie = opponent;
-  goalie.robotType = 0;
-  settings.opponent = agent::makeAgentSettings(opponent, opponentData);
-  settings.goalie = agent::makeAgentSettings(goalie, opponentData);
-  if (arguments.opponentParameters.empty())
-    opponent.parameterFiles = goalie.parameterFiles = {data + "/params/variants/wall.toml"};
-  settings.wall = {agent::makeAgentSettings(goalie, opponentData),
-                   agent::makeAgentSettings(opponent, opponentData)};
+  const int type = arguments.choice.robotType;
+  const lab::Defence given = defenceOf(type, arguments.opponentParameters, opponentData);
+  settings.opponent = given.back;
+  settings.goalie = given.goalie;
+  settings.wall = arguments.opponentParameters.empty()
+                      ? defenceOf(type, {data + "/params/variants/wall.toml"}, opponentData)
+                      : given;
 }
 
 void refuseOpponents(const BallReportArguments& arguments, const std::string& skill) {

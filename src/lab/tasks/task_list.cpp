@@ -1,5 +1,6 @@
 #include <array>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,18 @@
 #include "lab/tasks/tasks.h"
 
 namespace nonet::lab {
+
+namespace {
+
+// A task for every kick: prefix_NAME.
+struct NamedTasks {
+  std::string_view prefix;
+  const Task& (*task)(std::string_view name);
+};
+constexpr NamedTasks kOfAKick[] = {
+    {"swing_", swingTask}, {"played_", playedKickTask}, {"aimed_", aimedKickTask}};
+
+}  // namespace
 
 std::span<const Task* const> registeredTasks() {
   static const std::array tasks{
@@ -44,9 +57,9 @@ std::span<const Task* const> registeredTasks() {
 
 const Task& findTask(std::string_view name) {
   if (name.starts_with("kick_")) return kickTask(name);
-  if (name.starts_with("swing_")) return swingTask(name.substr(std::string_view("swing_").size()));
-  if (name.starts_with("played_")) return playedKickTask(name.substr(std::string_view("played_").size()));
-  if (name.starts_with("aimed_")) return aimedKickTask(name.substr(std::string_view("aimed_").size()));
+  for (const NamedTasks& kind : kOfAKick) {
+    if (name.starts_with(kind.prefix)) return kind.task(name.substr(kind.prefix.size()));
+  }
   std::string known;
   for (const Task* task : registeredTasks()) {
     if (task->name() == name) return *task;

@@ -128,6 +128,13 @@ GamePlayer fieldPlayer(const agent::AgentSettings& agent, const Pose2& X_WR, Min
   return player;
 }
 
+GamePlayer rightGoalie(const agent::AgentSettings& agent, const Vector2& goal) {
+  constexpr double kBefore = 0.6;  // m
+  GamePlayer goalie{agent, true, Pose2(goal.x() - kBefore, goal.y(), kPi), {}};
+  goalie.agent.unum = 1;
+  return goalie;
+}
+
 RecordedTrial::RecordedTrial(const sim::Settings& settings, const GameSituation& situation,
                              std::uint64_t seed)
     : game_(settings, situation, seed) {

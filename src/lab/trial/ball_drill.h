@@ -39,6 +39,9 @@ Intention along(const BallPath& path);
 GamePlayer fieldPlayer(const agent::AgentSettings& agent, const Pose2& X_WR, Mind mind,
                        bool rightTeam = false);
 
+/// The right team's goalie, number 1, 0.6 m before the middle of its line.
+GamePlayer rightGoalie(const agent::AgentSettings& agent, const Vector2& goal);
+
 /// A trial with its track, which is judged by the truth.
 class RecordedTrial {
  public:

@@ -83,7 +83,6 @@ constexpr double kDuelTime = 20.0;  // s
 constexpr double kAttackTime = 25.0;   // s
 constexpr double kAttackBehind = 0.4;  // m behind the ball
 constexpr double kAttackLost = 5.0;    // m
-constexpr double kGoalieBefore = 0.6;  // m before its line
 constexpr double kStillOpen = 0.3;     // worth of a ball that is still there in the end
 
 constexpr double kPassTime = 6.0;  // s
@@ -196,10 +195,9 @@ Attack attackOnce(const agent::AgentSettings& agent, const Defence& defence, con
   situation.ball = {goal.x() - random.uniform(2.5, 6.0), random.uniform(-4.0, 4.0)};
   const double toGoal = directionOf(goal - situation.ball);
   const double heading = toGoal + random.uniform(-0.7, 0.7);
-  GamePlayer goalie{defence.goalie, true, Pose2(goal.x() - kGoalieBefore, 0.0, kPi), {}};
-  goalie.agent.unum = 1;
   situation.players = {
-      fieldPlayer(agent, Pose2(situation.ball - kAttackBehind * unitVector(heading), heading), {}), goalie};
+      fieldPlayer(agent, Pose2(situation.ball - kAttackBehind * unitVector(heading), heading), {}),
+      rightGoalie(defence.goalie, goal)};
   for (const double least : {0.6, 1.8}) {
     const double from = toGoal + random.uniform(-1.2, 1.2);
     const Vector2 place = situation.ball + random.uniform(least, least + 1.4) * unitVector(from);

@@ -24,7 +24,6 @@ constexpr double kBallAside = 5.0;      // m
 constexpr double kBallRolls = 1.0;      // m/s, at most
 constexpr double kWide = 1.2;           // rad, to either side of the line from the ball to the goal and back
 constexpr double kBackAside = 1.5;      // m, off the line to the goal
-constexpr double kGoalieAhead = 0.6;    // m before its line
 constexpr double kRobotsApart = 0.5;    // m
 constexpr int kDraws = 40;              // until a robot is so far apart from the others
 
@@ -81,10 +80,8 @@ GameSituation drawSiege(const agent::AgentSettings& agent, const Defence& defenc
     situation.players.push_back(fieldPlayer(agent, facingBall(place), {}));
     situation.players.back().agent.unum = kFirstAttacker + static_cast<int>(i);
   }
-  const Vector2 guard = places.take([&]() -> Vector2 { return goal - Vector2(kGoalieAhead, 0.0); });
-  GamePlayer goalie{defence.goalie, true, Pose2(guard, kPi), {}};
-  goalie.agent.unum = 1;
-  situation.players.push_back(goalie);
+  situation.players.push_back(rightGoalie(defence.goalie, goal));
+  places.take([&] { return situation.players.back().X_WR.translation; });
   for (std::size_t i = 0; i < kBacks; ++i) {
     const Vector2 place = places.take([&] { return placeOfBack(i, ball, goal, random); });
     GamePlayer back{defence.back, true, facingBall(place), {}};

@@ -14,7 +14,7 @@ namespace nonet::lab {
 
 struct Siege : TrialCost {       // falls and self-collisions: of any of the four
   bool goal = false;             // for the four
-  bool corner = false;           // theirs
+  bool corner = false;           // for the four
   bool out = false;              // the ball left the field otherwise: goal kicks, kick-ins
   bool lost = false;             // the ball was driven 5 m away from the goal line where it began, or farther
   bool charged = false;          // one of the four was taken off for running into somebody
