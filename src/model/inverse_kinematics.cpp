@@ -173,11 +173,12 @@ bool legReaches(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles
   return solveLeg(model, side, X_RS, angles, inside) == Reach::Exact && inside;
 }
 
-void shiftSole(const RobotModel& model, Side side, const Vector3& way, LegAngles& angles) {
+void shiftSole(const RobotModel& model, Side side, const Vector3& way, double yaw, LegAngles& angles) {
   const Limb<6> limb = legLimb(model, side);
   Eigen::Map<Eigen::Matrix<double, 6, 1>> x(angles.data());
   Pose3 goal = limb.evaluate(x, nullptr);
   goal.translation() += way;
+  goal.linear() = Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * goal.linear();
   for (int i = 0; i < kShiftSteps; ++i) {
     Eigen::Matrix<double, 6, 1> residual;
     Eigen::Matrix<double, 6, 6> derivative;

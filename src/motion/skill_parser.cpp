@@ -262,7 +262,7 @@ class Parser : private SkillReader {
     instruction.feet.push_back(pose(foot));
   }
 
-  // "shift left foot by (1m * ballAhead, 1m * ballAside, 0)"
+  // "shift left foot by (1m * ballAhead, 1m * ballAside, 0) turned 0.5rad * turn"
   void shift(Instruction& instruction) {
     FootShift& shift = instruction.shifts.emplace_back();
     shift.side = side();
@@ -274,6 +274,7 @@ class Parser : private SkillReader {
       shift.way[i] = kickValue(Unit::Metre);
     }
     expect(")");
+    if (accept("turned")) shift.yaw = kickValue(Unit::Radian);
   }
 
   FootGoal pose(Side side) {

@@ -275,10 +275,10 @@ void SkillPlayer::shiftFoot(const FootShift& shift, bool mirrored) {
   model::JointArray goals = from_;
   for (std::size_t i = 0; i < model::kJointCount; ++i)
     if ((moves_ >> i) & 1U) goals[i] = to_[i];
-  const Vector3 way(shift.way[0].at(inputs_), (mirrored ? -1.0 : 1.0) * shift.way[1].at(inputs_),
-                    shift.way[2].at(inputs_));
+  const double left = mirrored ? -1.0 : 1.0;
+  const Vector3 way(shift.way[0].at(inputs_), left * shift.way[1].at(inputs_), shift.way[2].at(inputs_));
   model::LegAngles leg = model::legAngles(side, goals);
-  model::shiftSole(*model_, side, way, leg);
+  model::shiftSole(*model_, side, way, left * shift.yaw.at(inputs_), leg);
   model::setLegAngles(side, leg, to_);
   const std::size_t first = model::index(side == Side::Left ? JointId::LLeg1 : JointId::RLeg1);
   for (std::size_t i = first; i < first + leg.size(); ++i) {

@@ -282,17 +282,20 @@ TEST(LegInverseKinematics, AtTheLimitsItIsAsNearAsTheNumericSolver) {
 // Against the forward kinematics, in postures in which a kick's foot is.
 TEST(LegInverseKinematics, TheShiftedSoleIsWhereItShouldBe) {
   Random random(8);
-  std::vector<double> errors;  // as shares of the way
+  std::vector<double> errors;  // as shares of the change
   for (int trial = 0; trial < 2000; ++trial) {
     const RobotModel& model = robotModel(trial % kRobotTypeCount);
     const Side side = trial % 2 == 0 ? Side::Left : Side::Right;
     LegAngles leg{random.uniform(-0.5, 0.0),  random.uniform(-0.2, 0.2), random.uniform(0.2, 1.2),
                   random.uniform(-1.8, -0.7), random.uniform(-0.5, 1.0), random.uniform(-0.3, 0.3)};
-    Pose3 wanted = soleOf(model, side, leg);
+    const Pose3 before = soleOf(model, side, leg);
+    Pose3 wanted = before;
     const Vector3 way(random.uniform(-0.05, 0.05), random.uniform(-0.04, 0.04), random.uniform(-0.01, 0.01));
+    const double yaw = random.uniform(-0.2, 0.2);
     wanted.translation() += way;
-    shiftSole(model, side, way, leg);
-    errors.push_back(distance(soleOf(model, side, leg), wanted) / way.norm());
+    wanted.linear() = Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * wanted.linear();
+    shiftSole(model, side, way, yaw, leg);
+    errors.push_back(distance(soleOf(model, side, leg), wanted) / distance(before, wanted));
     EXPECT_LT(errors.back(), 1.0) << "trial " << trial;
   }
   std::sort(errors.begin(), errors.end());

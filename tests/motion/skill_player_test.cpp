@@ -124,6 +124,28 @@ TEST_F(Player, KicksShiftTheFootWithTheBall) {
   }
 }
 
+// To the left for the left foot, by so much more than without; its place is kept.
+TEST_F(Player, KicksTurnTheFoot) {
+  const auto soleOf = [&](const std::string& turned, bool mirrored) {
+    load(
+        "skill a { kick { ball (0.2m, 5cm) distance 1m..2m contact 0.1s }"
+        "move over 0.4s { left.hipPitch 0.6rad left.knee -1rad shift left foot by (0m, 0m, 0m)" +
+            turned + " } }",
+        mirrored, KickAim{Vector2(0.2, mirrored ? -0.05 : 0.05), mirrored ? -0.1 : 0.1, Vector2(0.3, 0.0)});
+    cyclesToEnd();
+    model::BodyPoses bodies;
+    model::forwardKinematics(model_, targets_.angles, bodies);
+    return model::solePose(model_, bodies, mirrored ? model::Side::Right : model::Side::Left);
+  };
+  for (const bool mirrored : {false, true}) {
+    const Pose3 straight = soleOf("", mirrored);
+    const Pose3 turned = soleOf(" turned 1rad * turn - 0.5rad * paceAhead + 0.15rad", mirrored);
+    const Eigen::AngleAxisd expected((mirrored ? -1.0 : 1.0) * 0.1, Vector3::UnitZ());
+    EXPECT_LT((turned.linear() - expected * straight.linear()).norm(), 0.005);
+    EXPECT_LT((turned.translation() - straight.translation()).norm(), 0.003);
+  }
+}
+
 // What a kick asks of a joint may be too far for its time: it goes as far as it can.
 TEST_F(Player, KicksKeepToTheSpeedsOfTheJoints) {
   load(

@@ -34,10 +34,10 @@ Reach legInverseKinematics(const RobotModel& model, Side side, const Pose3& X_RS
 /// it costs the same everywhere.
 bool legReaches(const RobotModel& model, Side side, const Pose3& X_RS, LegAngles& angles);
 
-/// Changes the angles so that the sole goes by `way` (torso frame, m) from where they have it, turned as
-/// before: for small ways, by damped Newton steps. Near a stretched leg it goes as far as it can; limits are
-/// not looked at.
-void shiftSole(const RobotModel& model, Side side, const Vector3& way, LegAngles& angles);
+/// Changes the angles so that the sole goes by `way` (torso frame, m) from where they have it and turns to
+/// the left by `yaw` (rad, about the torso's vertical axis): for small ones, by damped Newton steps. Near a
+/// stretched leg it goes as far as it can; limits are not looked at.
+void shiftSole(const RobotModel& model, Side side, const Vector3& way, double yaw, LegAngles& angles);
 
 /// Writes leg angles into a joint array, and reads them back.
 void setLegAngles(Side side, const LegAngles& leg, JointArray& joints);

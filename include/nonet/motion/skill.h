@@ -109,10 +109,12 @@ struct FootGoal {
   Vector3 rollPitchYaw = Vector3::Zero();  // rad, applied as yaw, then pitch, then roll
 };
 
-/// Where the ball is moves the foot of a kick: on top of its joints' angles, as the left foot does it.
+/// What a kick suits itself to moves and turns its foot: on top of its joints' angles, as the left foot does
+/// it.
 struct FootShift {
   model::Side side = model::Side::Left;
   std::array<KickValue, 3> way;  // torso frame, m
+  KickValue yaw;                 // about the torso's vertical axis, rad
 };
 
 enum class Quantity : std::uint8_t { Time, Pitch, Roll, Rate, Height, BallDistance, BallX, BallY };
