@@ -1,4 +1,5 @@
-// nonet kick fit: a kick's curve within what the robot can do.
+// nonet kick fit: a kick's curve within what the robot can do. nonet kick straighten: the ball goes where it
+// should.
 #include <memory>
 #include <string>
 
@@ -8,9 +9,12 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
+#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
+#include "nonet/app/option_checks.h"
 #include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/optimize/kick_fit.h"
+#include "nonet/lab/reports/kick_straighten.h"
 
 namespace nonet::app {
 
@@ -23,28 +27,50 @@ struct KickFitArguments {
   std::string out;
 };
 
+// Into the file, or to the reader.
+void give(const std::string& toml, const std::string& out) {
+  if (out.empty()) {
+    fmt::print("\n{}", toml);
+    return;
+  }
+  lab::writeAtomically(out, toml);
+  fmt::print(stderr, "{}\n", out);
+}
+
 int fit(const KickFitArguments& arguments) {
   spdlog::set_level(spdlog::level::warn);
   lab::KickFitSettings settings = arguments.settings;
   settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
   const lab::KickFit result = lab::fitKick(settings);
   fmt::print("{}", lab::kickFitTable(result));
-  if (arguments.out.empty()) {
-    fmt::print("\n{}", lab::kickFitToml(result));
-  } else {
-    lab::writeAtomically(arguments.out, lab::kickFitToml(result));
-    fmt::print(stderr, "{}\n", arguments.out);
-  }
+  give(lab::kickFitToml(result), arguments.out);
   return result.holds ? 0 : 1;
 }
 
-}  // namespace
+struct StraightenArguments {
+  agent::AgentChoice choice;
+  lab::KickReportSettings settings;
+  std::string data;
+  std::string out;
+};
 
-void addKickCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("kick", "Tools for kicks along curves (skills/README.md)");
-  command->require_subcommand(1);
+int straighten(const StraightenArguments& arguments) {
+  spdlog::set_level(spdlog::level::warn);
+  lab::KickReportSettings settings = arguments.settings;
+  settings.seed = arguments.choice.seed;
+  settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
+  Console console(stderr);
+  settings.progress = console.trials();
+  const lab::StraightenedKick result = lab::straightenKick(settings);
+  console.end();
+  fmt::print("{}", lab::straightenedTable(result));
+  give(lab::straightenedToml(result), arguments.out);
+  return result.better ? 0 : 1;
+}
+
+void addFitCommand(CLI::App& command, int& exitCode) {
   const auto arguments = std::make_shared<KickFitArguments>();
-  CLI::App* fitCommand = command->add_subcommand(
+  CLI::App* fitCommand = command.add_subcommand(
       "fit",
       "Fit a kick's curve through the ball to joint, speed, reach and balance limits, with the fastest foot "
       "at contact");
@@ -67,7 +93,52 @@ void addKickCommand(CLI::App& app, int& exitCode) {
       "  nonet kick-report --type 2 --kick kick_heel --params logs/heel.toml\n"
       "  nonet optimize swing_heel --type 2 --quick --params logs/heel.toml --out runs/heel2");
   fitCommand->callback([arguments, &exitCode] { exitCode = fit(*arguments); });
-  command->footer("Example:\n  nonet kick fit kick_heel --type 2 --out logs/heel.toml");
+}
+
+void addStraightenCommand(CLI::App& command, int& exitCode) {
+  const auto arguments = std::make_shared<StraightenArguments>();
+  lab::KickReportSettings& settings = arguments->settings;
+  settings.trials = 200;
+  settings.start = 1.0;
+  settings.rolling = 0.3;
+  CLI::App* straightenCommand = command.add_subcommand(
+      "straighten", "Turn a kick's foot so that the ball goes where it should, whatever the steps before");
+  straightenCommand->add_option("kick", settings.kick, "Name of a kick with a parameter 'yaw' or 'veer'")
+      ->required();
+  addAgentOptions(*straightenCommand, arguments->choice, arguments->data);
+  straightenCommand->add_option("--trials", settings.trials, "Kicks that are measured, each of seven times")
+      ->check(CLI::Range(20, 100000));
+  straightenCommand->add_option("--start", settings.start, "Distance from which the robot comes, m")
+      ->check(CLI::Range(0.2, 5.0));
+  straightenCommand->add_option("--rolling", settings.rolling, "Fastest speed of the ball at the begin, m/s")
+      ->check(CLI::Range(0.0, 3.0));
+  straightenCommand->add_option("--distance", settings.distance, "How far the ball should go, m")
+      ->check(CLI::Range(0.5, 25.0));
+  straightenCommand->add_option("--seed", arguments->choice.seed, "Seed; the last kicks have the next one");
+  straightenCommand->add_option("--threads", settings.threads, "Threads, 0 = all processors")
+      ->check(threadCount());
+  straightenCommand->add_option("--out", arguments->out,
+                                "Write the parameters into this file; otherwise they are printed");
+  straightenCommand->footer(
+      "The ball's direction follows the pace of the last steps and where the ball lies; a foot that turns "
+      "with them undoes it.\nExit code 1: the kick is no better for it.\n"
+      "Examples:\n  nonet kick straighten kick_power --type 2 --out logs/straight.toml\n"
+      "  nonet kick-report --type 2 --kick kick_power --params logs/straight.toml\n"
+      "  nonet optimize aimed_power --type 2 --accept logs/straight.toml --trials 40 --out "
+      "params/type2.toml");
+  straightenCommand->callback([arguments, &exitCode] { exitCode = straighten(*arguments); });
+}
+
+}  // namespace
+
+void addKickCommand(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("kick", "Tools for kicks (skills/README.md)");
+  command->require_subcommand(1);
+  addFitCommand(*command, exitCode);
+  addStraightenCommand(*command, exitCode);
+  command->footer(
+      "Examples:\n  nonet kick fit kick_heel --type 2 --out logs/heel.toml\n"
+      "  nonet kick straighten kick_power --type 2 --out logs/straight.toml");
 }
 
 }  // namespace nonet::app

@@ -1,5 +1,8 @@
 #include "skill_kick_head.h"
 
+#include <algorithm>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "nonet/model/robot_model.h"
@@ -44,6 +47,17 @@ double KickHead::fliesBelow(double height, double distance) const {
   const double off = distance / apexAt - 1.0;
   const double mean = apex * (1.0 - off * off);
   return 0.5 * std::erfc((mean - height) / (std::sqrt(2.0) * apexSpread));
+}
+
+KickInputs kickInputs(const KickAim& aim, const KickHead& head, bool mirrored) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // m, m, rad, m/s, m/s. The distance has its bounds in the head.
+  const KickInputs most = (KickInputs() << 0.08, 0.08, 0.5, 1.0, 1.0, kInfinity).finished();
+  const double left = mirrored ? -1.0 : 1.0;
+  KickInputs inputs;
+  inputs << aim.ball.x() - head.p_RBall.x(), left * aim.ball.y() - head.p_RBall.y(), left * aim.turn,
+      aim.pace.x(), left * aim.pace.y(), std::clamp(aim.distance, head.shortest, head.longest);
+  return inputs.cwiseMax(-most).cwiseMin(most);
 }
 
 KickHead readKickHead(SkillReader& reader) {

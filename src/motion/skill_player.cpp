@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "nonet/model/ball.h"
 
@@ -20,20 +19,6 @@ constexpr double kShortestMove = 0.005;   // s
 constexpr double kNoStretch = 1e-6;       // share
 constexpr double kKickedBall = 0.7;       // m/s
 constexpr double kFarthestAnchor = 0.06;  // m, that a curve follows the ball
-
-// What a kick's values are made for: beyond these they do not grow. m, m, rad, m/s, m/s. The distance has its
-// bounds in the head.
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const KickInputs kMostInputs = (KickInputs() << 0.08, 0.08, 0.5, 1.0, 1.0, kInfinity).finished();
-
-// As the kick with the left foot has them.
-KickInputs inputsOf(const KickAim& aim, const KickHead& head, bool mirrored) {
-  const double left = mirrored ? -1.0 : 1.0;
-  KickInputs inputs;
-  inputs << aim.ball.x() - head.p_RBall.x(), left * aim.ball.y() - head.p_RBall.y(), left * aim.turn,
-      aim.pace.x(), left * aim.pace.y(), std::clamp(aim.distance, head.shortest, head.longest);
-  return inputs.cwiseMax(-kMostInputs).cwiseMin(kMostInputs);
-}
 
 JointGoal mirroredGoal(const JointGoal& goal) {
   const double sign = mirrorsSign(goal.joint) ? -1.0 : 1.0;
@@ -73,7 +58,7 @@ bool SkillPlayer::start(std::string_view name, bool mirrored, const model::Joint
   from_ = commanded;
   ball_ = aim ? std::optional(aim->ball) : std::nullopt;
   const std::optional<KickHead>& kick = library_->skill(skill).kick;
-  inputs_ = kick && aim ? inputsOf(*aim, *kick, mirrored) : KickInputs(KickInputs::Zero());
+  inputs_ = kick && aim ? kickInputs(*aim, *kick, mirrored) : KickInputs(KickInputs::Zero());
   if (kick && !aim) inputs_(kDistanceInput) = kick->longest;
   return true;
 }

@@ -45,6 +45,11 @@ constexpr int kKickInputs = 6;
 constexpr int kDistanceInput = 5;
 using KickInputs = Eigen::Matrix<double, kKickInputs, 1>;
 
+struct KickHead;
+/// What a kick of this head is told, `mirrored` for the right foot. Beyond what kicks are made for the inputs
+/// do not grow: 8 cm, 0.5 rad, 1 m/s.
+KickInputs kickInputs(const KickAim& aim, const KickHead& head, bool mirrored);
+
 /// A number of a skill: `constant` and a multiple of each input.
 struct KickValue {
   double constant = 0.0;

@@ -63,9 +63,13 @@ std::string kickFitTable(const KickFit& fit) {
 }
 
 std::string kickFitToml(const KickFit& fit) {
-  std::string text = fmt::format("# Fitted by nonet kick fit {} --type {}\n[motion.skills.{}]\n", fit.kick,
-                                 fit.robotType, fit.kick);
-  for (const FittedParameter& parameter : fit.parameters) {
+  return fmt::format("# Fitted by nonet kick fit {} --type {}\n", fit.kick, fit.robotType) +
+         skillOverlay(fit.kick, fit.parameters);
+}
+
+std::string skillOverlay(const std::string& skill, const std::vector<FittedParameter>& parameters) {
+  std::string text = fmt::format("[motion.skills.{}]\n", skill);
+  for (const FittedParameter& parameter : parameters) {
     const std::string_view unit = config::unitName(parameter.unit);
     const std::string number = fmt::format("{}", parameter.after);
     // Without a point TOML would read an integer.

@@ -57,7 +57,9 @@ Kick kickOn(KickStage& stage, const KickGame& game, double longest) {
     from = stage.ball().p_FB.head<2>();
     stage.step();
     const double now = stage.ball().v_FB.norm();
-    kick.contact = game.kicker->motion.busy && now > speed + kHit;
+    const motion::MotionState& motion = game.kicker->motion;
+    if (motion.busy && !kick.begin) kick.begin = {motion.kick.aim, motion.kick.foot};
+    kick.contact = motion.busy && now > speed + kHit;
     speed = now;
     kick.fell = kick.fell || stage.down();
   }

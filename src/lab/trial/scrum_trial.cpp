@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::size_t kPerSide = 3;
 constexpr int kFirstNumber = 3;
-constexpr double kTime = 12.0;   // s
-constexpr double kAlong = 8.0;   // m, ball's place from the middle
-constexpr double kAcross = 7.0;  // m
-constexpr double kTurned = 0.4;  // rad, the line between the sides
-constexpr double kFacing = 0.6;  // rad, robots off the direction of the ball
-constexpr double kApart = 0.45;  // m
-constexpr int kMoves = 20;       // until they are so far apart
+constexpr double kTime = 12.0;       // s
+constexpr double kAlong = 8.0;       // m, ball's place from the middle
+constexpr double kAcross = 7.0;      // m
+constexpr double kLineTurned = 0.4;  // rad, the line between the sides
+constexpr double kFacing = 0.6;      // rad, robots off the direction of the ball
+constexpr double kApart = 0.45;      // m
+constexpr int kPlaceTries = 20;      // until they are so far apart
 
 struct Ring {          // where a robot stands from the ball
   double least, most;  // m
@@ -35,7 +35,7 @@ constexpr double kMostSpeed = 3.0;   // m/s
 using Places = std::array<Pose2, 2 * kPerSide>;  // the left side's first
 
 void moveApart(Places& places) {
-  for (int move = 0; move < kMoves; ++move) {
+  for (int move = 0; move < kPlaceTries; ++move) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const Vector2 way = places[i].translation - places[j].translation;
@@ -52,7 +52,7 @@ void moveApart(Places& places) {
 
 Places drawPlaces(const Vector2& ball, const Rings& rings, Random& random) {
   Places places;
-  const double turned = random.uniform(-kTurned, kTurned);
+  const double turned = random.uniform(-kLineTurned, kLineTurned);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Ring& ring = rings[i % kPerSide];
     const double side = i < kPerSide ? -1.0 : 1.0;

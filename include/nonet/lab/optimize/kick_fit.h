@@ -52,5 +52,6 @@ KickFit fitKick(const KickFitSettings& settings);
 std::string kickFitTable(const KickFit& fit);
 /// The skill's parameters as a file that overlays those in force.
 std::string kickFitToml(const KickFit& fit);
+std::string skillOverlay(const std::string& skill, const std::vector<FittedParameter>& parameters);
 
 }  // namespace nonet::lab

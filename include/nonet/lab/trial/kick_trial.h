@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,14 @@ struct KickScene {
   double longest = 10.0;   // s until the contact
 };
 
+/// What a kick was told when it began.
+struct KickBegin {
+  motion::KickAim aim;
+  model::Side foot = model::Side::Left;
+};
+
 struct Kick {
+  std::optional<KickBegin> begin;
   bool contact = false;       // the foot met the ball in a kick
   double forward = 0.0;       // m that the ball went towards the target, until it rolled out
   double aside = 0.0;         // m to the left of it
