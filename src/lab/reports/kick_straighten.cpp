@@ -30,8 +30,9 @@ constexpr std::array<std::string_view, kTurningInputs> kSlopes{"yawAhead", "yawA
                                                                "yawPaceAhead", "yawPaceAside"};
 
 std::vector<double> directionsOf(const std::vector<DirectionSample>& samples) {
-  std::vector<double> directions;
-  for (const DirectionSample& sample : samples) directions.push_back(sample.direction);
+  std::vector<double> directions(samples.size());
+  std::transform(samples.begin(), samples.end(), directions.begin(),
+                 [](const DirectionSample& sample) { return sample.direction; });
   return directions;
 }
 
