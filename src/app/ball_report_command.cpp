@@ -17,7 +17,6 @@
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/option_checks.h"
-#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/ball_report.h"
 
 namespace nonet::app {
@@ -83,15 +82,11 @@ int run(const BallReportArguments& arguments) {
   const std::string data = dataFolder(arguments.data);
   settings.agent = agent::makeAgentSettings(arguments.choice, data);
   addOpponents(arguments, data, settings);
-  Console console(stderr);
-  settings.progress = console.trials();
-  const lab::BallReport report = lab::measureBallSkills(settings);
-  console.end();
+  const lab::BallReport report = measureShown(settings, lab::measureBallSkills);
   fmt::print("{}", arguments.json ? lab::ballReportJson(report, settings) : lab::ballReportTable(report));
   if (arguments.svg.empty() || report.slaloms.empty()) return 0;
   const std::string path = arguments.svg + "slalom.svg";
-  lab::writeAtomically(path, lab::slalomSvg(report.slaloms, settings));
-  fmt::print(stderr, "{}\n", path);
+  writeAndName(path, lab::slalomSvg(report.slaloms, settings));
   return 0;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "nonet/lab/common/atomic_file.h"
+
 namespace nonet::app {
 
 Console::Console(std::FILE* out) : out_(out), terminal_(::isatty(::fileno(out)) != 0), next_(Clock::now()) {}
@@ -38,6 +40,11 @@ void Console::end() {
   const std::lock_guard lock(mutex_);
   if (shown_) fmt::print(out_, "\n");
   shown_ = false;
+}
+
+void writeAndName(const std::string& path, const std::string& text) {
+  lab::writeAtomically(path, text);
+  fmt::print(stderr, "{}\n", path);
 }
 
 }  // namespace nonet::app

@@ -11,8 +11,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
-#include "nonet/app/option_checks.h"
-#include "nonet/lab/common/atomic_file.h"
+#include "nonet/app/kick_options.h"
 #include "nonet/lab/optimize/kick_fit.h"
 #include "nonet/lab/reports/kick_straighten.h"
 
@@ -27,14 +26,17 @@ struct KickFitArguments {
   std::string out;
 };
 
+void addOut(CLI::App& command, std::string& out) {
+  command.add_option("--out", out, "Write the parameters into this file; otherwise they are printed");
+}
+
 // Into the file, or to the reader.
 void give(const std::string& toml, const std::string& out) {
   if (out.empty()) {
     fmt::print("\n{}", toml);
     return;
   }
-  lab::writeAtomically(out, toml);
-  fmt::print(stderr, "{}\n", out);
+  writeAndName(out, toml);
 }
 
 int fit(const KickFitArguments& arguments) {
@@ -59,10 +61,7 @@ int straighten(const StraightenArguments& arguments) {
   lab::KickReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
-  Console console(stderr);
-  settings.progress = console.trials();
-  const lab::StraightenedKick result = lab::straightenKick(settings);
-  console.end();
+  const lab::StraightenedKick result = measureShown(settings, lab::straightenKick);
   fmt::print("{}", lab::straightenedTable(result));
   give(lab::straightenedToml(result), arguments.out);
   return result.better ? 0 : 1;
@@ -84,8 +83,7 @@ void addFitCommand(CLI::App& command, int& exitCode) {
                    "From how many places around those values the solver begins")
       ->check(CLI::Range(1, 1000));
   fitCommand->add_option("--seed", arguments->choice.seed, "Seed of these places");
-  fitCommand->add_option("--out", arguments->out,
-                         "Write the parameters into this file; otherwise they are printed");
+  addOut(*fitCommand, arguments->out);
   fitCommand->footer(
       "Begins at the values of the skill file and params/ (with --params and --set on top); moves those with "
       "a range that\nmove the curve. Exit code 1: no curve within the limits was found.\n"
@@ -108,17 +106,9 @@ void addStraightenCommand(CLI::App& command, int& exitCode) {
   addAgentOptions(*straightenCommand, arguments->choice, arguments->data);
   straightenCommand->add_option("--trials", settings.trials, "Kicks that are measured, each of seven times")
       ->check(CLI::Range(20, 100000));
-  straightenCommand->add_option("--start", settings.start, "Distance from which the robot comes, m")
-      ->check(CLI::Range(0.2, 5.0));
-  straightenCommand->add_option("--rolling", settings.rolling, "Fastest speed of the ball at the begin, m/s")
-      ->check(CLI::Range(0.0, 3.0));
-  straightenCommand->add_option("--distance", settings.distance, "How far the ball should go, m")
-      ->check(CLI::Range(0.5, 25.0));
+  addKickOptions(*straightenCommand, settings);
   straightenCommand->add_option("--seed", arguments->choice.seed, "Seed; the last kicks have the next one");
-  straightenCommand->add_option("--threads", settings.threads, "Threads, 0 = all processors")
-      ->check(threadCount());
-  straightenCommand->add_option("--out", arguments->out,
-                                "Write the parameters into this file; otherwise they are printed");
+  addOut(*straightenCommand, arguments->out);
   straightenCommand->footer(
       "The ball's direction follows the pace of the last steps and where the ball lies; a foot that turns "
       "with them undoes it.\nExit code 1: the kick is no better for it.\n"

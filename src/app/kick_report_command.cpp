@@ -11,8 +11,7 @@
 #include "nonet/app/commands.h"
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
-#include "nonet/app/option_checks.h"
-#include "nonet/lab/common/atomic_file.h"
+#include "nonet/app/kick_options.h"
 #include "nonet/lab/reports/kick_report.h"
 
 namespace nonet::app {
@@ -36,16 +35,12 @@ int run(const KickReportArguments& arguments) {
   settings.seed = arguments.choice.seed;
   settings.agent = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
   settings.server = arguments.server.chosen();
-  Console console(stderr);
-  settings.progress = console.trials();
-  const std::vector<lab::KickMeasures> report = lab::measureKicks(settings);
-  console.end();
+  const std::vector<lab::KickMeasures> report = measureShown(settings, lab::measureKicks);
   fmt::print("{}", arguments.json ? lab::kickReportJson(report, settings) : lab::kickReportTable(report));
   if (arguments.svg.empty()) return 0;
   for (const lab::KickMeasures& kick : report) {
     const std::string path = fmt::format("{}{}.svg", arguments.svg, kick.name);
-    lab::writeAtomically(path, lab::kickReportSvg(kick, settings));
-    fmt::print(stderr, "{}\n", path);
+    writeAndName(path, lab::kickReportSvg(kick, settings));
   }
   return 0;
 }
@@ -61,18 +56,12 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
   command->add_option("--kick", settings.kick, "Name of a kick, all, or any: the one that motion chooses");
   command->add_option("--trials,--kicks", settings.trials, "Kicks of each kind")
       ->check(CLI::Range(1, 100000));
-  command->add_option("--start", settings.start, "Distance from which the robot comes, m")
-      ->check(CLI::Range(0.2, 5.0));
-  command->add_option("--rolling", settings.rolling, "Fastest speed of the ball at the begin, m/s")
-      ->check(CLI::Range(0.0, 3.0));
+  addKickOptions(*command, settings);
   command->add_option("--pushed", settings.pushed, "Speed at which it rolls to the target at the begin, m/s")
       ->check(CLI::Range(0.0, 3.0));
-  command->add_option("--distance", settings.distance, "How far the ball should go, m")
-      ->check(CLI::Range(0.5, 25.0));
   command->add_flag("--stop", settings.stops,
                     "With --kick any: it should come to rest there, motion chooses as for a pass");
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
-  command->add_option("--threads", settings.threads, "Threads, 0 = all processors")->check(threadCount());
   addServerOptions(*command, arguments->server);
   command->add_option("--svg", arguments->svg, "Draw the balls' ways: SVG + name of the kick + .svg");
   command->add_flag("--json", arguments->json, "Print JSON");

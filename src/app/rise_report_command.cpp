@@ -26,10 +26,7 @@ int run(const RiseReportArguments& arguments) {
   lab::RiseReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   settings.setup = lab::trialSettings(agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data)));
-  Console console(stderr);
-  settings.progress = console.trials();
-  const lab::RiseReport report = lab::measureRising(settings);
-  console.end();
+  const lab::RiseReport report = measureShown(settings, lab::measureRising);
   fmt::print("{}", arguments.json ? lab::riseReportJson(report) : lab::riseReportTable(report));
   return 0;
 }

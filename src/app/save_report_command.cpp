@@ -11,7 +11,6 @@
 #include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/app/option_checks.h"
-#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/save_report.h"
 
 namespace nonet::app {
@@ -31,14 +30,10 @@ int run(const SaveReportArguments& arguments) {
   lab::SaveReportSettings settings = arguments.settings;
   settings.seed = arguments.choice.seed;
   settings.goalie = agent::makeAgentSettings(arguments.choice, dataFolder(arguments.data));
-  Console console(stderr);
-  settings.progress = console.trials();
-  const lab::SaveReport report = lab::measureSaves(settings);
-  console.end();
+  const lab::SaveReport report = measureShown(settings, lab::measureSaves);
   fmt::print("{}", arguments.json ? lab::saveReportJson(report, settings) : lab::saveReportTable(report));
   if (arguments.svg.empty()) return 0;
-  lab::writeAtomically(arguments.svg, lab::saveReportSvg(report, settings));
-  fmt::print(stderr, "{}\n", arguments.svg);
+  writeAndName(arguments.svg, lab::saveReportSvg(report, settings));
   return 0;
 }
 

@@ -14,9 +14,9 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/app/agent_options.h"
 #include "nonet/app/commands.h"
+#include "nonet/app/console.h"
 #include "nonet/app/data_folder.h"
 #include "nonet/config/assignment.h"
-#include "nonet/lab/common/atomic_file.h"
 #include "nonet/lab/reports/skill_report.h"
 #include "nonet/motion/skill_language.h"
 #include "nonet/motion/skill_library.h"
@@ -91,8 +91,7 @@ int run(const SkillPlayArguments& arguments) {
   fmt::print("{}",
              arguments.json ? lab::skillReportJson(trial, settings) : lab::skillReportText(trial, settings));
   if (!arguments.plot.empty()) {
-    lab::writeAtomically(arguments.plot, lab::skillReportSvg(trial, settings));
-    fmt::print(stderr, "{}\n", arguments.plot);
+    writeAndName(arguments.plot, lab::skillReportSvg(trial, settings));
   }
   if (!trial.recordingError.empty()) {
     fmt::print(stderr, "nonet skill play: {}\n", trial.recordingError);

@@ -41,10 +41,7 @@ int run(WalkReportArguments arguments) {
   if (!arguments.traceFile.empty()) {
     lab::writeAtomically(arguments.traceFile, lab::walkTraceSvg(settings.setup, Pose2(10.0, 0.0, 0.0), 1.0));
   }
-  Console console(stderr);
-  settings.progress = console.trials();
-  const lab::WalkReport report = lab::measureWalk(settings);
-  console.end();
+  const lab::WalkReport report = measureShown(settings, lab::measureWalk);
   fmt::print("{}", arguments.json ? lab::walkReportJson(report) : lab::walkReportTable(report));
   if (!arguments.svgFile.empty()) lab::writeAtomically(arguments.svgFile, lab::walkReportSvg(report));
   return 0;

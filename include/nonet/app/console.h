@@ -37,4 +37,17 @@ class Console {
   mutable std::mutex mutex_;
 };
 
+/// What `measure` finds with these settings, its trials shown on stderr.
+template <class Settings, class Measure>
+auto measureShown(Settings settings, const Measure& measure) {
+  Console console(stderr);
+  settings.progress = console.trials();
+  auto result = measure(settings);
+  console.end();
+  return result;
+}
+
+/// Writes the file whole or not at all, and names it on stderr.
+void writeAndName(const std::string& path, const std::string& text);
+
 }  // namespace nonet::app

@@ -26,8 +26,9 @@ constexpr std::array<double, 2> kShares{0.8, 0.6};  // of what is missing, set i
 constexpr double kLeastVeer = toRadians(0.3);       // less is noise
 constexpr double kMayCost = 0.95;                   // share of the distance that it may cost
 constexpr double kWorse = 0.02;                     // share of kicks that may fall or fail more than before
-constexpr std::array<std::string_view, kTurningInputs> kSlopes{"yawAhead", "yawAside", "yawTurn",
-                                                               "yawPaceAhead", "yawPaceAside"};
+constexpr std::array<std::string_view, 2 + kTurningInputs> kNames{
+    "veer", "yaw", "yawAhead", "yawAside", "yawTurn", "yawPaceAhead", "yawPaceAside"};
+constexpr std::size_t kFirstSlope = 2;  // of the names, then in the order of the inputs
 
 std::vector<double> directionsOf(const std::vector<DirectionSample>& samples) {
   std::vector<double> directions(samples.size());
@@ -48,16 +49,12 @@ std::vector<DirectionSample> samplesOf(const KickMeasures& measures, const motio
 }
 
 DirectionFigures figuresOf(const std::vector<DirectionSample>& samples) {
-  DirectionFigures figures;
-  if (samples.empty()) return figures;
-  const auto share = 1.0 / static_cast<double>(samples.size());
-  for (const DirectionSample& sample : samples) {
-    const double off = std::abs(sample.direction);
-    figures.meanError += share * off;
-    figures.beyondFive += off > toRadians(5.0) ? share : 0.0;
-  }
-  figures.median = quantile(directionsOf(samples), 0.5);
-  return figures;
+  if (samples.empty()) return {};
+  const auto beyond = std::count_if(samples.begin(), samples.end(), [](const DirectionSample& sample) {
+    return std::abs(sample.direction) > toRadians(5.0);
+  });
+  return {quantile(directionsOf(samples), 0.5),
+          static_cast<double>(beyond) / static_cast<double>(samples.size())};
 }
 
 // The kick with values of its parameters that change.
@@ -85,12 +82,11 @@ class Straightening {
   }
   config::Unit unit(std::string_view parameter) const { return skills().names->at(*indexOf(parameter)).unit; }
 
-  KickMeasures measure(std::uint64_t seed, const std::string& what) {
+  KickMeasures measure(std::uint64_t seed) {
     KickReportSettings settings = settings_;
     settings.seed = seed;
     KickMeasures measures = measureKicks(settings).front();
     samples_ = samplesOf(measures, head_);
-    measures.name = what;
     return measures;
   }
   /// Of the kicks that were measured last.
@@ -114,7 +110,7 @@ class Straightening {
 // The turn of the foot on average stays what it was, so that the posture it was learned with does.
 void turnBack(Straightening& kick, const DirectionFit& fit, double share, double authority) {
   for (int i = 0; i < kTurningInputs; ++i) {
-    const std::string_view name = kSlopes[static_cast<std::size_t>(i)];
+    const std::string_view name = kNames[kFirstSlope + static_cast<std::size_t>(i)];
     const double before = kick.value(name);
     kick.add(name, -share * fit.slopes[i] / authority);
     kick.add("yaw", -(kick.value(name) - before) * fit.mean[i]);
@@ -127,7 +123,7 @@ double authorityOf(Straightening& kick, std::uint64_t seed) {
   std::array<double, 2> medians{};
   for (const int side : {0, 1}) {
     kick.add("yaw", (side == 0 ? -1.0 : 1.0) * kFootTurned);
-    kick.measure(seed, "turned");
+    kick.measure(seed);
     medians[static_cast<std::size_t>(side)] = kick.median();
     kick.add("yaw", before - kick.value("yaw"));
   }
@@ -138,14 +134,16 @@ void aimAnew(Straightening& kick) {
   if (std::abs(kick.median()) > kLeastVeer) kick.add("veer", kick.median());
 }
 
-std::vector<std::string_view> names() {
-  std::vector<std::string_view> all{"veer", "yaw"};
-  all.insert(all.end(), kSlopes.begin(), kSlopes.end());
-  return all;
+void turnInRounds(Straightening& kick, std::uint64_t seed, double authority) {
+  for (const double share : kShares) {
+    turnBack(kick, fitDirection(kick.samples()), share, authority);
+    kick.measure(seed);
+    aimAnew(kick);
+  }
 }
 
 bool isBetter(const StraightenedKick& r) {
-  return r.directionAfter.meanError < r.directionBefore.meanError &&
+  return r.after.directionError.mean < r.before.directionError.mean &&
          r.after.distance.mean > kMayCost * r.before.distance.mean &&
          r.after.falls < r.before.falls + kWorse && r.after.under2m < r.before.under2m + kWorse &&
          r.after.selfCollisions < r.before.selfCollisions + kWorse;
@@ -194,22 +192,21 @@ StraightenedKick straightenKick(const KickReportSettings& settings) {
   StraightenedKick result;
   result.kick = settings.kick;
   result.robotType = settings.agent.robotType;
-  for (const std::string_view name : names())
+  for (const std::string_view name : kNames)
     if (kick.has(name)) result.parameters.push_back({std::string(name), kick.unit(name), kick.value(name)});
   const std::uint64_t fresh = settings.seed + 1;
-  result.before = kick.measure(fresh, "before");
+  result.before = kick.measure(fresh);
   result.directionBefore = figuresOf(kick.samples());
   result.authority = authorityOf(kick, settings.seed);
   result.turns = std::abs(result.authority) > kLeastAuthority;
-  kick.measure(settings.seed, "before");
+  kick.measure(settings.seed);
   result.fit = fitDirection(kick.samples());
-  for (const double share : kShares) {
-    if (result.turns) turnBack(kick, fitDirection(kick.samples()), share, result.authority);
-    if (result.turns) kick.measure(settings.seed, "turned back");
+  if (result.turns) {
+    turnInRounds(kick, settings.seed, result.authority);
+  } else {
     aimAnew(kick);
-    if (!result.turns) break;
   }
-  result.after = kick.measure(fresh, "after");
+  result.after = kick.measure(fresh);
   result.directionAfter = figuresOf(kick.samples());
   for (FittedParameter& parameter : result.parameters) parameter.after = kick.value(parameter.name);
   result.better = isBetter(result);
@@ -221,14 +218,16 @@ std::string straightenedTable(const StraightenedKick& r) {
   text += fmt::format("{:<8} {:>7} {:>8} {:>11} {:>11} | {:>6} {:>6} {:>8} {:>6} {:>6} {:>6}\n", "", "trials",
                       "off deg", "median left", "beyond five", "mean m", "p10", "under 2m", "falls", "fouls",
                       "time s");
-  for (const auto& [kicks, off] : {std::pair{&r.before, &r.directionBefore}, {&r.after, &r.directionAfter}}) {
+  const auto addRow = [&](const char* when, const KickMeasures& kicks, const DirectionFigures& off) {
     text += fmt::format(
         "{:<8} {:>7} {:>8.2f} {:>11.2f} {:>10.1f}% | {:>6.2f} {:>6.2f} {:>7.1f}% {:>5.1f}% {:>5.1f}% "
         "{:>6.2f}\n",
-        kicks->name, kicks->trials, toDegrees(off->meanError), toDegrees(off->median),
-        100.0 * off->beyondFive, kicks->distance.mean, kicks->distance.p10, 100.0 * kicks->under2m,
-        100.0 * kicks->falls, 100.0 * kicks->selfCollisions, kicks->time.mean);
-  }
+        when, kicks.trials, toDegrees(kicks.directionError.mean), toDegrees(off.median),
+        100.0 * off.beyondFive, kicks.distance.mean, kicks.distance.p10, 100.0 * kicks.under2m,
+        100.0 * kicks.falls, 100.0 * kicks.selfCollisions, kicks.time.mean);
+  };
+  addRow("before", r.before, r.directionBefore);
+  addRow("after", r.after, r.directionAfter);
   text += fmt::format("the foot turned by a degree turns the ball's way by {:.2f} degrees{}\n", r.authority,
                       r.turns ? "" : ": too little, so that only 'veer' was set");
   text += fmt::format("of a deviation of {:.2f} degrees before, {:.2f} do not follow what the kick is told\n",

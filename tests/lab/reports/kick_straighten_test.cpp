@@ -98,8 +98,8 @@ TEST(KickStraighten, ASpoiltKickIsStraightenedAgain) {
   const StraightenedKick result = straightenKick(settings);
   EXPECT_TRUE(result.turns);
   EXPECT_LT(result.authority, -0.4);
-  EXPECT_GT(result.directionBefore.meanError, toRadians(1.2));
-  EXPECT_LT(result.directionAfter.meanError, 0.6 * result.directionBefore.meanError);
+  EXPECT_GT(result.before.directionError.mean, toRadians(1.2));
+  EXPECT_LT(result.after.directionError.mean, 0.6 * result.before.directionError.mean);
   EXPECT_LT(std::abs(result.directionAfter.median), toRadians(0.5));
   EXPECT_TRUE(result.better);
   ASSERT_EQ(result.parameters.size(), 7U);

@@ -35,7 +35,6 @@ DirectionFit fitDirection(const std::vector<DirectionSample>& samples);
 
 struct DirectionFigures {
   double median = 0.0;      // rad, to the left
-  double meanError = 0.0;   // rad
   double beyondFive = 0.0;  // share of the kicks more than five degrees off
 };
 
@@ -53,7 +52,7 @@ struct StraightenedKick {
   bool better = false;  // straighter, and as good in all else
 };
 
-/// Settings as for a report of this one kick; seven times so many kicks are measured. Throws
+/// Settings as for a report of this one kick; up to seven times so many kicks are measured. Throws
 /// std::runtime_error: there is no such kick for this type, or it has none of the parameters.
 StraightenedKick straightenKick(const KickReportSettings& settings);
 

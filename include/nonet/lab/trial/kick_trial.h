@@ -32,17 +32,17 @@ struct KickBegin {
 };
 
 struct Kick {
-  std::optional<KickBegin> begin;
-  bool contact = false;       // the foot met the ball in a kick
-  double forward = 0.0;       // m that the ball went towards the target, until it rolled out
-  double aside = 0.0;         // m to the left of it
-  double height = 0.0;        // m, of the ball's centre a metre from where it lay
-  double landing = 0.0;       // m from where it lay to where it first came down; 0: it did not fly
-  double time = 0.0;          // s until contact
-  double ballSpeed = 0.0;     // m/s, the fastest
-  bool fell = false;          // within two seconds after contact, or before
-  bool selfCollided = false;  // until then its own limbs collided, for which the referee freezes them
-  std::vector<Vector3> path;  // of the ball: x towards the target, y left, from where it lay, m
+  std::optional<KickBegin> begin;  // nothing: no kick began
+  bool contact = false;            // the foot met the ball in a kick
+  double forward = 0.0;            // m that the ball went towards the target, until it rolled out
+  double aside = 0.0;              // m to the left of it
+  double height = 0.0;             // m, of the ball's centre a metre from where it lay
+  double landing = 0.0;            // m from where it lay to where it first came down; 0: it did not fly
+  double time = 0.0;               // s until contact
+  double ballSpeed = 0.0;          // m/s, the fastest
+  bool fell = false;               // within two seconds after contact, or before
+  bool selfCollided = false;       // until then its own limbs collided, for which the referee freezes them
+  std::vector<Vector3> path;       // of the ball: x towards the target, y left, from where it lay, m
 
   bool missed() const;
   bool tooShort() const;                            // under 2 m
