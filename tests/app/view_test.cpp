@@ -148,6 +148,31 @@ TEST(Track, ALogCompressedOrPlainTellsWhatTheSimulationKnows) {
   EXPECT_THROW(readMonitorLog(NONET_BINARY), protocol::LogError);
 }
 
+TEST(Track, TeamsThatChangeSidesAreNamedByRow) {
+  protocol::MonitorReader reader;
+  Track track(0.2);
+  const auto add = [&](const std::string& state, const char* scene) {
+    ASSERT_TRUE(reader.feed("(" + state + ")" + scene));
+    track.add(reader);
+  };
+  const char* ball =
+      "(RSG 0 1)((nd TRF (SLT 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0.04 1)(nd StaticMesh (setVisible 1)"
+      "(load models/soccerball.obj)(sSc 1 1 1)(resetMaterials soccerball_rcs-soccerball.png))))";
+  add("(time 0)(half 1)(play_mode 0)", ball);
+  add("(time 0.2)(team_left Reds)", "(RDS 0 1)((nd (nd)))");
+  add("(time 0.4)(team_right Blues)", "(RDS 0 1)((nd (nd)))");
+  add("(time 0.6)(half 2)(team_left Blues)(team_right Reds)", "(RDS 0 1)((nd (nd)))");
+  add("(time 0.8)", "(RDS 0 1)((nd (nd)))");
+  ASSERT_EQ(track.names().size(), 2U) << "a name that becomes known is no change";
+  EXPECT_EQ(track.names()[0].frame, 0U);
+  EXPECT_EQ(track.names()[0].left, "Reds");
+  EXPECT_EQ(track.names()[0].right, "Blues");
+  EXPECT_EQ(track.names()[1].frame, 3U);
+  EXPECT_EQ(track.names()[1].left, "Blues");
+  const std::string message = track.message(0, 0, "log", "");
+  EXPECT_NE(message.find(R"("teams":[[0,"Reds","Blues"],[3,"Blues","Reds"]])"), std::string::npos);
+}
+
 TEST(HttpRequest, OnlyBrowsersOfThisMachineGetAnAnswer) {
   HttpRequest request;
   HttpResponse refusal;
@@ -205,6 +230,12 @@ TEST(TraceFolder, LinesOfOthersAreLeftOutAndAFileThatIsGoneIsNamed) {
   EXPECT_EQ(traces.size(), 1U);
   EXPECT_EQ(traces.cycles(13), "[" + ours + "]");
   EXPECT_EQ(traces.cycles(3), "[]");
+  std::string problem = "?";
+  traces.cycles(13, &problem);
+  EXPECT_EQ(problem, "");
+  std::ofstream(folder.file("ours.trace"), std::ios::app) << R"({"time":2,"game_t)";
+  EXPECT_EQ(traces.cycles(13, &problem), "[" + ours + "]") << "as far as it goes";
+  EXPECT_THAT(problem, ::testing::HasSubstr("ours.trace"));
   fs::remove(folder.file("ours.trace"));
   EXPECT_THROW(traces.cycles(13), protocol::LogError);
 }

@@ -54,7 +54,7 @@ TraceFolder::TraceFolder(const std::string& folder) {
     throw std::runtime_error(folder + ": no traces in it; nonet match --trace FOLDER writes them");
 }
 
-std::string TraceFolder::cycles(std::size_t slot) const {
+std::string TraceFolder::cycles(std::size_t slot, std::string* problem) const {
   const auto file = files_.find(slot);
   if (file == files_.end()) return "[]";
   protocol::LogReader reader(file->second);
@@ -70,6 +70,7 @@ std::string TraceFolder::cycles(std::size_t slot) const {
     if (text.size() > 1) text += ',';
     text += line.text;
   }
+  if (problem != nullptr) *problem = reader.problem();
   return text + "]";
 }
 

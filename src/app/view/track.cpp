@@ -86,8 +86,21 @@ void Track::add(const protocol::MonitorReader& reader) {
     if (cycles > 0) ++steps_[cycles];
   }
   field_ = reader.field();
+  addNames(game);
   findEvents(reader);
   game_ = game;
+}
+
+// A name that has only become known holds for the rows before it, too.
+void Track::addNames(const protocol::MonitorGame& game) {
+  const auto stays = [](const std::string& before, const std::string& now) {
+    return before.empty() || before == now;
+  };
+  if (names_.empty() || !stays(names_.back().left, game.teamLeft) ||
+      !stays(names_.back().right, game.teamRight))
+    names_.push_back({names_.empty() ? 0 : frames() - 1, {}, {}});
+  names_.back().left = game.teamLeft;
+  names_.back().right = game.teamRight;
 }
 
 void Track::addRobot(const protocol::MonitorRobot& robot, float* row) {
@@ -184,12 +197,12 @@ std::string Track::message(std::size_t from, std::size_t eventsFrom, std::string
                       {"unum", event.unum},
                       {"text", event.text}});
   }
-  const nlohmann::json header = {{"source", source},    {"live", live},
-                                 {"from", from},        {"frames", frames()},
-                                 {"step", step()},      {"row", kRowFloats},
-                                 {"game", kGameFloats}, {"robot", kRobotFloats},
-                                 {"slots", kSlots},     {"teams", {game_.teamLeft, game_.teamRight}},
-                                 {"field", field_},     {"eventsFrom", eventsFrom},
+  nlohmann::json teams = nlohmann::json::array();
+  for (const TeamNames& names : names_) teams.push_back({names.frame, names.left, names.right});
+  const nlohmann::json header = {{"source", source},    {"live", live},          {"from", from},
+                                 {"frames", frames()},  {"step", step()},        {"row", kRowFloats},
+                                 {"game", kGameFloats}, {"robot", kRobotFloats}, {"slots", kSlots},
+                                 {"teams", teams},      {"field", field_},       {"eventsFrom", eventsFrom},
                                  {"events", events}};
   std::string json = header.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // foreign names
   json.resize((json.size() + 3) / 4 * 4, ' ');  // numbers lie at multiples of their size

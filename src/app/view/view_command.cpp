@@ -2,6 +2,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <asio.hpp>
 #include <fmt/format.h>
@@ -96,7 +97,15 @@ class Viewer {
     live_.emplace(io_, source_.substr(0, colon), source_.substr(colon + 1), track_);
   }
 
-  HttpResponse answer(const HttpRequest& request) const {
+  std::string traceOf(std::size_t slot) {
+    if (!traces_) return "[]";
+    std::string problem;
+    std::string cycles = traces_->cycles(slot, &problem);
+    if (!problem.empty() && told_.insert(slot).second) fmt::print(stderr, "nonet view: {}\n", problem);
+    return cycles;
+  }
+
+  HttpResponse answer(const HttpRequest& request) {
     constexpr std::string_view kThree = "/three/";
     if (request.path == "/track") {
       const std::string state = live_ ? live_->state() : "";
@@ -104,7 +113,7 @@ class Viewer {
               track_.message(request.number("from"), request.number("events"), source_, state)};
     }
     if (request.path == "/trace") {
-      return {200, "application/json", traces_ ? traces_->cycles(request.number("slot")) : "[]"};
+      return {200, "application/json", traceOf(request.number("slot"))};
     }
     if (request.path == "/shapes") return {200, "application/json", robotShapes().dump()};
     if (request.path.starts_with(kThree)) return threeFile(three_, request.path.substr(kThree.size() - 1));
@@ -116,6 +125,7 @@ class Viewer {
   std::string source_;
   std::string three_;  // folder
   std::optional<TraceFolder> traces_;
+  std::set<std::size_t> told_;  // slots whose trace is torn or damaged
   std::optional<LiveMonitor> live_;
   std::optional<HttpServer> server_;
 };

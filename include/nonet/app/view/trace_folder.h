@@ -14,8 +14,8 @@ class TraceFolder {
 
   std::size_t size() const { return files_.size(); }
   /// The trace of the robot in this slot of the track as a JSON array, one cycle per 0.1 s; "[]" if there is
-  /// none.
-  std::string cycles(std::size_t slot) const;
+  /// none. `problem`, if given, gets one sentence with the file's name if that is torn or damaged.
+  std::string cycles(std::size_t slot, std::string* problem = nullptr) const;
 
  private:
   std::map<std::size_t, std::string> files_;  // by slot

@@ -29,6 +29,13 @@ struct TrackEvent {
   std::string text;  // name of the foul or of the new play mode
 };
 
+/// What the teams on the two sides are called from a row on; empty as long as unknown.
+struct TeamNames {
+  std::size_t frame = 0;
+  std::string left;
+  std::string right;
+};
+
 class Track {
  public:
   // Row: game time s, play mode, half, goals left, goals right, ball position (m) and orientation (quaternion
@@ -50,6 +57,8 @@ class Track {
   /// kick-off, so it cannot be the axis of the player.
   double step() const;
   const std::vector<TrackEvent>& events() const { return events_; }
+  /// More than one entry where teams have changed sides.
+  const std::vector<TeamNames>& names() const { return names_; }
   std::span<const float> rows(std::size_t from) const;
 
   /// What the browser asks for: "from" and "events" are what it has already. Four bytes of length, that many
@@ -59,6 +68,7 @@ class Track {
                       std::string_view live) const;
 
  private:
+  void addNames(const protocol::MonitorGame& game);
   void addRobot(const protocol::MonitorRobot& robot, float* row);
   void findEvents(const protocol::MonitorReader& reader);
   void findKick(const protocol::MonitorReader& reader);
@@ -67,6 +77,7 @@ class Track {
   double step_;
   std::vector<float> rows_;
   std::vector<TrackEvent> events_;
+  std::vector<TeamNames> names_;
   std::map<int, long> steps_;  // how often the clock went on by so many cycles
   std::map<std::string, double, std::less<>> field_;
   protocol::MonitorGame game_;  // of the row before

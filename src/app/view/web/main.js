@@ -238,9 +238,9 @@ class Player {
 
   showBoard() {
     const game = this.track.game(this.place);
-    const [left, right] = this.track.header.teams;
-    setText('teamLeft', left || 'Left');
-    setText('teamRight', right || 'Right');
+    const [left, right] = this.track.teams(this.place);
+    setText('teamLeft', left);
+    setText('teamRight', right);
     setText('score', `${game.left} : ${game.right}`);
     setText('clock', `${clockText(game.time)}  ·  half ${game.half}  ·  ${kModes[game.mode] || ''}`);
     setText('time', `${clockText(this.place * this.track.step)} / ${clockText((this.track.frames - 1) * this.track.step)}`);
@@ -252,7 +252,7 @@ class Player {
   showFollowed(trace) {
     const {side, unum} = slotName(this.followed);
     const type = this.track.robotType(this.place, this.followed);
-    const team = this.track.header.teams[side - 1] || ['Left', 'Right'][side - 1];
+    const team = this.track.teams(this.place)[side - 1];
     const rows = [];
     if (type < 0) {
       rows.push(['', 'not on the field']);

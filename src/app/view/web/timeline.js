@@ -135,7 +135,7 @@ export function clockText(seconds) {
 }
 
 function eventText(event, track) {
-  const team = event.side > 0 ? track.header.teams[event.side - 1] || ['left', 'right'][event.side - 1] : '';
+  const team = event.side > 0 ? track.teams(event.frame)[event.side - 1] : '';
   const who = event.unum > 0 ? `${team} ${event.unum}` : team;
   const what = {goal: 'goal', kick: `kick, ball at ${event.text}`, fall: 'falls', foul: event.text}[event.kind];
   return `${clockText(event.frame * track.step)}  ${who}: ${what}`;

@@ -64,6 +64,12 @@ export class Track {
     return {time, mode, half, left, right};
   }
 
+  // What the teams on the left and on the right are called then: they may change sides.
+  teams(place) {
+    const [, left, right] = this.header.teams.findLast(([frame]) => frame <= place) ?? [0, '', ''];
+    return [left || 'Left', right || 'Right'];
+  }
+
   // The game's clock, between two rows as well.
   gameTime(place) {
     const [row, next, share] = this.between(place);
