@@ -60,6 +60,7 @@ void addKeeping(BallSkillReport& report, const std::string& skill, const std::ve
     report.figures.push_back(figure(skill + key, what, trials, value));
   };
   add("_kept", "share never lost", [](const Dribble& t) { return t.arrived && !t.lost; });
+  add("_near", "share never too far from the torso", [](const Dribble& t) { return t.arrived && !t.tooFar; });
   add("_away", "share of the time lost", [](const Dribble& t) { return t.away; });
   add("_apart_m", "m, farthest from the torso", [](const Dribble& t) { return t.apart; });
   add("_aside_m", "m, farthest from the path", [](const Dribble& t) { return t.aside; });

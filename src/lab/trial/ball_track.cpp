@@ -113,6 +113,7 @@ DribbleResult measureDribble(const BallTrack& track, const BallPath& path) {
     if (result.arrived) break;
   }
   result.lost = away > 0;
+  result.tooFar = result.apart > path.keep;
   result.away = static_cast<double>(away) / std::max(samples, 1);
   result.progress = progress.farthest();
   if (end > begin) result.speed = result.progress / (end - begin);

@@ -58,12 +58,14 @@ TEST(BallTrack, BallIsLostFarFromTheTorsoOrFromTheLine) {
   EXPECT_FALSE(measureDribble(trackOf(11.0, 0.59, straight), straightPath({}, 10.0)).lost);
   const DribbleResult far = measureDribble(trackOf(11.0, 0.61, straight), straightPath({}, 10.0));
   EXPECT_TRUE(far.lost);
+  EXPECT_TRUE(far.tooFar);
   EXPECT_NEAR(far.away, 1.0, 1e-9);
   // Beside the line by more than 0.3 m from 6 to 8 m of 10.
   const auto aside = [](double t) { return Vector2(t, t > 6.0 && t < 8.0 ? 0.31 : 0.0); };
   const DribbleResult result = measureDribble(trackOf(11.0, 0.2, aside), straightPath({}, 10.0));
   EXPECT_TRUE(result.arrived);
   EXPECT_TRUE(result.lost);
+  EXPECT_FALSE(result.tooFar);
   EXPECT_NEAR(result.away, 0.2, 0.01);
 }
 
