@@ -73,7 +73,9 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
   const double left = std::max(timeLeftAtBall(s), s.undisturbed);
   const std::optional<Vector2> present = presentTarget(s);
   std::optional<Pass> best;
-  double most = dribbleValue(s) + p.better;
+  const bool far = (goal - s.ball()).norm() > p.far;
+  const double least = far ? p.farLeast : p.least;
+  double most = dribbleValue(s) + (far ? p.farBetter : p.better);
   for (int unum = 2; unum <= world::kTeamSize; ++unum) {
     if (!canReceive(s, unum)) continue;
     const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
@@ -82,7 +84,7 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
       const Vector2 target = mate.X_FP.translation + run * p.runStep * onward;
       const Vector2 way = target - s.ball();
       const double distance = way.norm();
-      if (distance < p.least || distance > p.most || !s.world.field.holds(target, p.margin)) continue;
+      if (distance < least || distance > p.most || !s.world.field.holds(target, p.margin)) continue;
       std::optional<Resistance> resistance;
       for (const motion::KickOption& kick : s.motion.kicks) {
         if (!serves(kick, distance, s)) continue;

@@ -100,6 +100,19 @@ TEST(Pass, NotFartherThanAnyKickServes) {
   EXPECT_FALSE(scene.best());
 }
 
+// Short ones do not pay near the goal, where a push may score.
+TEST(Pass, ShortOnesOnlyFarFromTheGoal) {
+  Passing scene;
+  scene.parameters.pass.runStep = 0.0;  // to where the mate stands
+  Scene::put(scene.world.teammates[kReceiver], Pose2(3.0, 2.0, 0.0));
+  const auto pass = scene.best();
+  ASSERT_TRUE(pass);
+  const Vector2 way = pass->p_FTarget - scene.world.ball.p_FB.head<2>();
+  EXPECT_LT(way.norm(), scene.parameters.pass.least);
+  scene.parameters.pass.far = 15.0;
+  EXPECT_FALSE(scene.best());
+}
+
 TEST(Pass, NotNowUnderPressureNorWithARollingBall) {
   Passing scene;
   Scene::put(scene.world.opponents[6], Pose2(0.6, 0.5, 0.0));

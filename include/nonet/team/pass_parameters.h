@@ -18,6 +18,9 @@ struct PassParameters {
   double ours = 0.7;
   double lane = 0.3;
   double better = 0.02;
+  double far = 10.0;
+  double farLeast = 2.2;
+  double farBetter = 0.0;
   double keep = 0.01;
   double same = 1.0;
   double before = 0.3;
@@ -71,6 +74,17 @@ struct PassParameters {
            search(0, 0.05),
            "Goals that a pass must be worth more than running on with the ball"},
           self.better);
+    visit(
+        {"far",
+         Unit::Metre,
+         {0, 50},
+         search(5, 20),
+         "With the ball farther from the goal than this, farLeast and farBetter stand for least and better"},
+        self.far);
+    visit({"farLeast", Unit::Metre, {0, 30}, search(1.5, 5), "Far from the goal passes are at least so long"},
+          self.farLeast);
+    visit({"farBetter", Unit::None, {0, 1}, search(0, 0.05), "and worth so much more than running on"},
+          self.farBetter);
     visit({"keep",
            Unit::None,
            {0, 1},
