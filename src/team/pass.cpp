@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "nonet/math/direction.h"
@@ -34,6 +35,20 @@ std::optional<Vector2> presentTarget(const Situation& s) {
   const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
   if (kick == nullptr || !kick->stops) return std::nullopt;
   return s.world.self.X_FR * kick->target;
+}
+
+struct Demand {
+  double least = 0.0;   // m
+  double better = 0.0;  // goals more than running on
+};
+
+// Ahead, where the goal is far, a short pass for no gain will do; back it gives ground away.
+Demand demandOn(const Situation& s, const Vector2& p_FTarget) {
+  const PassParameters& p = s.parameters.pass;
+  const Vector2 goal = s.world.field.theirGoal();
+  const double toGoal = (goal - s.ball()).norm();
+  const bool onward = toGoal > p.far && (goal - p_FTarget).norm() < toGoal;
+  return onward ? Demand{p.farLeast, p.farBetter} : Demand{p.least, p.better};
 }
 
 // What opponents can do against a pass to some place, whoever kicks it how.
@@ -73,9 +88,8 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
   const double left = std::max(timeLeftAtBall(s), s.undisturbed);
   const std::optional<Vector2> present = presentTarget(s);
   std::optional<Pass> best;
-  const bool far = (goal - s.ball()).norm() > p.far;
-  const double least = far ? p.farLeast : p.least;
-  double most = dribbleValue(s) + (far ? p.farBetter : p.better);
+  const double dribbled = dribbleValue(s);
+  double most = -std::numeric_limits<double>::infinity();
   for (int unum = 2; unum <= world::kTeamSize; ++unum) {
     if (!canReceive(s, unum)) continue;
     const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
@@ -84,7 +98,8 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
       const Vector2 target = mate.X_FP.translation + run * p.runStep * onward;
       const Vector2 way = target - s.ball();
       const double distance = way.norm();
-      if (distance < least || distance > p.most || !s.world.field.holds(target, p.margin)) continue;
+      const Demand demand = demandOn(s, target);
+      if (distance < demand.least || distance > p.most || !s.world.field.holds(target, p.margin)) continue;
       std::optional<Resistance> resistance;
       for (const motion::KickOption& kick : s.motion.kicks) {
         if (!serves(kick, distance, s)) continue;
@@ -97,7 +112,7 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
         pass.value = *value;
         if (present && (*present - target).norm() < p.same) pass.value += p.keep;
         if (record != nullptr) record->add(target, pass.value);
-        if (pass.value <= most) continue;
+        if (pass.value <= std::max(most, dribbled + demand.better)) continue;
         most = pass.value;
         best = pass;
       }

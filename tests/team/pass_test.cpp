@@ -111,6 +111,9 @@ TEST(Pass, ShortOnesOnlyFarFromTheGoal) {
   EXPECT_LT(way.norm(), scene.parameters.pass.least);
   scene.parameters.pass.far = 15.0;
   EXPECT_FALSE(scene.best());
+  scene.parameters.pass.far = 10.0;
+  Scene::put(scene.world.teammates[kReceiver], Pose2(0.4, 2.7, 0.0));
+  EXPECT_FALSE(scene.best()) << "back";
 }
 
 TEST(Pass, NotNowUnderPressureNorWithARollingBall) {

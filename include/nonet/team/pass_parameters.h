@@ -74,13 +74,13 @@ struct PassParameters {
            search(0, 0.05),
            "Goals that a pass must be worth more than running on with the ball"},
           self.better);
-    visit(
-        {"far",
-         Unit::Metre,
-         {0, 50},
-         search(5, 20),
-         "With the ball farther from the goal than this, farLeast and farBetter stand for least and better"},
-        self.far);
+    visit({"far",
+           Unit::Metre,
+           {0, 50},
+           search(5, 20),
+           "With the ball farther from the goal than this, farLeast and farBetter stand for least and better "
+           "of passes that lead nearer to it"},
+          self.far);
     visit({"farLeast", Unit::Metre, {0, 30}, search(1.5, 5), "Far from the goal passes are at least so long"},
           self.farLeast);
     visit({"farBetter", Unit::None, {0, 1}, search(0, 0.05), "and worth so much more than running on"},
