@@ -112,8 +112,16 @@ TEST(Pass, ShortOnesOnlyFarFromTheGoal) {
   scene.parameters.pass.far = 15.0;
   EXPECT_FALSE(scene.best());
   scene.parameters.pass.far = 10.0;
-  Scene::put(scene.world.teammates[kReceiver], Pose2(0.4, 2.7, 0.0));
+  // In the own half, where a free mate behind looks better than a ball that opponents bar.
+  scene.putBall({-6.0, 0.0});
+  scene.stand(Pose2(-5.95, -0.2, 1.8));
+  for (std::size_t i = 0; i < 5; ++i)
+    Scene::put(scene.world.opponents[3 + i], Pose2(-4.6, 0.5 * static_cast<double>(i) - 1.0, kPi));
+  Scene::put(scene.world.teammates[kReceiver], Pose2(-6.6, 2.7, 0.0));
   EXPECT_FALSE(scene.best()) << "back";
+  scene.parameters.pass.least = scene.parameters.pass.farLeast;
+  scene.parameters.pass.better = scene.parameters.pass.farBetter;
+  EXPECT_TRUE(scene.best()) << "only for that";
 }
 
 TEST(Pass, NotNowUnderPressureNorWithARollingBall) {

@@ -39,7 +39,7 @@ struct DribbleResult {
   bool arrived = false;   // at the end of the path
   bool lost = false;      // was once too far from the torso, or too far from the path
   bool tooFar = false;    // was once too far from the torso, wherever
-  double away = 0.0;      // share of that time in which it was
+  double away = 0.0;      // share of that time in which it was lost
   double apart = 0.0;     // m, farthest from the torso
   double aside = 0.0;     // m, farthest from the path
 };
