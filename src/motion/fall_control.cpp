@@ -33,10 +33,9 @@ bool FallControl::update(const world::WorldState& world, SkillPlayer& player, Jo
   const world::BodyState& body = world.body;
   const bool upright = body.posture == Posture::Upright;
   if (phase_ == Phase::None) {
-    if (upright) {
-      if (world.time - uprightSince_ > kStandsAgain) attempts_ = 0;
-      return false;
-    }
+    // Also after a skill, during which nobody asks.
+    if (world.time - uprightSince_ > kStandsAgain) attempts_ = 0;
+    if (upright) return false;
     phase_ = Phase::Falling;
     lying_ = false;
   }

@@ -3,10 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/math/angle.h"
+
 namespace nonet::motion {
 
 using model::index;
 using model::JointId;
+
+namespace {
+
+// rad to either side of straight behind, where the head keeps to the side on which it is.
+constexpr double kBehindMargin = 0.2;
+
+double onTheSameSide(double pan, double present) {
+  const bool behind = std::abs(pan) > kPi - kBehindMargin;
+  return behind && pan * present < 0.0 ? std::copysign(kPi, present) : pan;
+}
+
+}  // namespace
 
 HeadControl::HeadControl(const model::RobotModel& model, const HeadParameters& parameters)
     : model_(&model), parameters_(parameters) {}
@@ -27,7 +41,7 @@ void HeadControl::update(const world::BodyState& body, const HeadRequest& reques
       const Vector3 p_CP = request.p_RP - model::cameraPose(body.bodies).translation();
       const double pan = std::atan2(p_CP.y(), p_CP.x());
       const double tilt = std::atan2(-p_CP.z(), p_CP.head<2>().norm());
-      follow(pan, std::min(tilt, parameters_.nearTilt), body.cycleTime, targets);
+      follow(onTheSameSide(pan, pan_), std::min(tilt, parameters_.nearTilt), body.cycleTime, targets);
       return;
     }
     case HeadRequest::Kind::Scan:

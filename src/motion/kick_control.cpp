@@ -24,9 +24,12 @@ constexpr double kTurnsAt = 0.27;
 constexpr double kBackwards = 0.25;
 
 // Out of the walk a kick begins where the step has ended that stands on the kicking foot: the other one
-// becomes the stance. Only out of slow steps: fast ones leave too much to balance.
-bool stepEnds(const GaitState& gait, Side foot, const KickParameters& p) {
+// becomes the stance. Only out of slow steps: fast ones leave too much to balance. Who has been hit is slow,
+// too, and sees the ball elsewhere under its torso than its feet have it.
+bool stepEnds(const WalkEngine& walk, Side foot, const KickParameters& p) {
+  const GaitState& gait = walk.gait();
   if (gait.standing || gait.stance != foot || gait.phase < 1.0 - 1e-6) return false;
+  if (leansTooFar(walk.measurement().tilt)) return false;
   return gait.step.translation.norm() < p.strideSpeed * gait.stepDuration &&
          std::abs(gait.step.rotation) < p.strideTurn * gait.stepDuration;
 }
@@ -109,10 +112,9 @@ WalkVelocity KickControl::lastSteps(const Way& way, const Vector2& along) const 
 // Where ball and target will be seen when the present steps have gone on for so long, at so much less speed
 // ahead than they say.
 KickTo KickControl::after(double seconds, double drift, const KickTo& request, const WalkEngine& walk) const {
-  const double cycles = seconds / kCycleTime;
-  const Pose2& stride = walk.odometryStep();
-  const Vector2 way = cycles * stride.translation - Vector2(seconds * drift, 0.0);
-  const Pose2 back = Pose2(way, cycles * stride.rotation).inverse();
+  const Pose2 speed = walk.speed();
+  const Vector2 way = seconds * (speed.translation - Vector2(drift, 0.0));
+  const Pose2 back = Pose2(way, seconds * speed.rotation).inverse();
   KickTo then = request;
   if (!chosen_->head.fromWalk && !walk.standing()) then.ball.x() += parameters_.stopDrift;
   then.ball = back * Vector2(then.ball);
@@ -167,9 +169,8 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   const bool quietly = walk.standing() && quiet >= p.quietTime;
   step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
   comesToStand_ = step.inPlace;
-  step.aim = {then.ball, way.turn, walk.odometryStep().translation / kCycleTime,
-              (request.target - request.ball).norm()};
-  step.begin = step.inPlace && (head.fromWalk ? stepEnds(walk.gait(), chosen_->foot, p) : quietly);
+  step.aim = {then.ball, way.turn, walk.speed().translation, (request.target - request.ball).norm()};
+  step.begin = step.inPlace && (head.fromWalk ? stepEnds(walk, chosen_->foot, p) : quietly);
   step.stand = step.inPlace && !head.fromWalk;
   if (head.isExact()) {
     const bool lies = within(kAbout, way) && (steady_ == 0.0 || steadyFor_ == chosen_);

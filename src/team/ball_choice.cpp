@@ -98,6 +98,7 @@ double teammatesTime(const Situation& s, const Vector2& p_F) {
   double least = std::numeric_limits<double>::infinity();
   for (int unum = 2; unum <= world::kTeamSize; ++unum) {
     if (s.setPlay && unum == s.world.game.unum) continue;  // who takes it must leave it to the others
+    if (s.hasGone(unum)) continue;
     const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
     least = std::min(least, arrival(mate, p_F, s.parameters.choice.ownPace, s.parameters.pace.risingTime));
   }

@@ -6,6 +6,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/team/own_area.h"
 
 namespace nonet::team {
 
@@ -27,6 +28,8 @@ bool wouldCharge(const Situation& s, const world::PlayerState& opponent, const V
   const Vector2 toOpponent = opponent.X_FP.translation - self;
   const Vector2 toBall = s.ball() - self;
   if (toOpponent.norm() > p.reach || way.dot(toOpponent.normalized()) < p.closing) return false;
+  const double passes = std::abs(way.x() * toOpponent.y() - way.y() * toOpponent.x());
+  if (passes > p.aside) return false;
   if (toBall.norm() < p.touched) return false;
   const double theirs = (s.ball() - opponent.X_FP.translation).norm();
   const double besideBall = angleBetween(way, toBall);
@@ -40,7 +43,9 @@ std::optional<motion::MotionRequest> spareOpponents(const Situation& s,
                                                     const motion::MotionRequest& request) {
   const double speed = s.parameters.charging.speed;
   const auto* walk = std::get_if<motion::WalkTo>(&request);
-  if (walk == nullptr || speed == 0.0 || !s.acts() || s.role == Role::Goalie) return std::nullopt;
+  // In its own area the goalie is let go.
+  const bool immune = s.role == Role::Goalie && inOwnArea(s.world.field, s.world.self.X_FR.translation);
+  if (walk == nullptr || speed == 0.0 || !s.acts() || immune) return std::nullopt;
   const Vector2 step = walk->target.translation;
   if (step.norm() < 1e-3) return std::nullopt;
   const Vector2 way = s.world.self.X_FR.rotate(step).normalized();

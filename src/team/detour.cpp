@@ -106,14 +106,17 @@ struct Search {
 
 }  // namespace
 
-Detour detour(const Vector2& from, const Vector2& to, std::span<const Disc> discs, const Facing& facing) {
+Detour detour(const Vector2& from, const Vector2& to, std::span<const Disc> discs, const Facing& facing,
+              double squeezeFor) {
   const Discs whole = aroundEnds(from, to, discs, 1.0);
-  Detour way = Search{whole.all(), from, facing}.find(from, to, kDepth);
-  if (!way.blocked) return way;
+  const Detour way = Search{whole.all(), from, facing}.find(from, to, kDepth);
+  if (!way.blocked && (way.straight || std::isinf(squeezeFor))) return way;
   const Discs narrow = aroundEnds(from, to, discs, kNarrow);
-  way = Search{narrow.all(), from, facing}.find(from, to, kDepth);
-  way.blocked = true;
-  return way;
+  Detour squeezed = Search{narrow.all(), from, facing}.find(from, to, kDepth);
+  const bool worthIt = !squeezed.blocked && way.length - squeezed.length > squeezeFor;
+  if (!way.blocked && !worthIt) return way;
+  squeezed.blocked = true;
+  return squeezed;
 }
 
 }  // namespace nonet::team

@@ -31,11 +31,12 @@ bool mayGoTo(const Vector2& p_F, const Situation& s) {
 
 }  // namespace
 
-Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters) {
+Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters,
+                 double clear) {
   const Vector2 goal = field.ownGoal();
   const double distance = (p_FB - goal).norm();
-  const double out =
-      std::min(parameters.outOfGoal, std::max(0.0, parameters.outShare * distance - kBeforeBall));
+  const double before = std::min(parameters.outShare * distance - kBeforeBall, distance - clear);
+  const double out = std::min(parameters.outOfGoal, std::max(0.0, before));
   Vector2 place = goal + out * (p_FB - goal).normalized();
   place.x() = std::max(place.x(), goal.x() + parameters.inFrontOfLine);
   const Vector2 way = p_FB - place;
@@ -86,21 +87,22 @@ bool goalieWantsBall(const Situation& s, bool claims) {
   // A field player that is sooner there and stands well keeps it.
   const Vector2 target = clearanceTarget(s);
   const PaceParameters& pace = s.parameters.pace;
-  const double own = timeToBall({s.world.self.X_FR, true, false}, s.forecast, target, pace);
+  const double own = timeToBall({s.world.self.X_FR, true}, s.forecast, target, pace);
   const double margin = (claims ? -1.0 : p.claimMargin) * s.parameters.keepBallTime;
   const auto& mates = s.world.teammates;
   const bool mateSooner = std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
-    const Runner runner{mate.X_FP, mate.headingKnown, mate.fallen};
-    const bool banned = &mate - mates.data() == s.banned;
-    return mate.known && !banned && timeToBall(runner, s.forecast, target, pace) < own + margin;
+    const auto unum = static_cast<int>(&mate - mates.data());
+    if (!mate.known || unum == s.banned || s.hasGone(unum)) return false;
+    return timeToBall(runnerOf(mate, s.world.time, pace), s.forecast, target, pace) < own + margin;
   });
   if (mateSooner) return false;
   // Nor is it left alone in front of an opponent that shoots before it comes.
   if (distance < p.fightDistance * (claims ? p.keepClaim : 1.0)) return true;
   const auto& others = s.world.opponents;
   return std::none_of(others.begin(), others.end(), [&](const world::PlayerState& opponent) {
-    const Runner runner{opponent.X_FP, opponent.headingKnown, opponent.fallen};
-    return opponent.known && timeToBall(runner, s.forecast, goal, pace) < own + (claims ? 0.0 : p.foremost);
+    if (!opponent.known) return false;
+    const Runner runner = runnerOf(opponent, s.world.time, pace);
+    return timeToBall(runner, s.forecast, goal, pace) < own + (claims ? 0.0 : p.foremost);
   });
 }
 

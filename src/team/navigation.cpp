@@ -62,11 +62,13 @@ Vector2 outsideOfRooms(Vector2 place, const Vector2& start, std::span<const Disc
 }
 
 Detour wayTo(const world::WorldState& world, const NavigationParameters& parameters, const Vector2& p_FTarget,
-             Obstacles obstacles, double fromBall) {
+             Obstacles obstacles, const Caution& caution) {
   addPosts(obstacles, world.field, parameters.bodyRoom);
-  if (fromBall > 0.0 && world.ball.known) obstacles.add(world.ball.p_FB.head<2>(), fromBall);
+  if (caution.wayToBall > 0.0 && world.ball.known)
+    obstacles.add(world.ball.p_FB.head<2>(), caution.wayToBall);
   const Facing facing{world.self.X_FR.rotation, parameters.turnCost};
-  return detour(world.self.X_FR.translation, p_FTarget, obstacles.all(), facing);
+  const double squeezeFor = caution.duel ? parameters.squeezeFor : std::numeric_limits<double>::infinity();
+  return detour(world.self.X_FR.translation, p_FTarget, obstacles.all(), facing, squeezeFor);
 }
 
 double roomLeft(const Vector2& start, double bodyRoom, std::span<const Disc> obstacles) {
@@ -99,7 +101,7 @@ motion::MotionRequest walkTo(const world::WorldState& world, const NavigationPar
     if (std::abs(last.target.rotation) < parameters.facing) return motion::Stand{};
     return last;
   }
-  const Detour way = wayTo(world, parameters, X_FTarget.translation, obstacles, caution.wayToBall);
+  const Detour way = wayTo(world, parameters, X_FTarget.translation, obstacles, caution);
   const double direction = directionOf(way.next - start);
   if (way.straight) {
     const double heading = distance > parameters.headingDistance ? direction : X_FTarget.rotation;

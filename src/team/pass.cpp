@@ -18,7 +18,7 @@ constexpr int kRuns = 3;  // places for each receiver: where it stands, and ahea
 
 bool canReceive(const Situation& s, int unum) {
   const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
-  return unum != s.world.game.unum && mate.known && !mate.fallen;
+  return unum != s.world.game.unum && mate.known && !mate.fallen && !s.hasGone(unum);
 }
 
 bool serves(const motion::KickOption& kick, double distance, const Situation& s) {
@@ -30,11 +30,21 @@ bool serves(const motion::KickOption& kick, double distance, const Situation& s)
   return std::abs(distance - length) < s.parameters.pass.fit * length;
 }
 
-// Where the pass that motion was asked for last ends, own field frame.
-std::optional<Vector2> presentTarget(const Situation& s) {
+// The pass that motion was asked for last; own field frame.
+struct PresentPass {
+  Vector2 p_FTarget = Vector2::Zero();
+  std::string_view kick;
+};
+
+std::optional<PresentPass> presentPass(const Situation& s) {
   const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
   if (kick == nullptr || !kick->stops) return std::nullopt;
-  return s.world.self.X_FR * kick->target;
+  return PresentPass{s.world.self.X_FR * kick->target, kick->kick.view()};
+}
+
+bool isPresent(const Situation& s, const std::optional<PresentPass>& present, const Pass& pass) {
+  return present && present->kick == pass.kick &&
+         (present->p_FTarget - pass.p_FTarget).norm() < s.parameters.pass.same;
 }
 
 struct Demand {
@@ -68,13 +78,14 @@ double receiverFirst(const Situation& s, const world::PlayerState& mate, const P
   return probabilityFirst(std::max(ours, 0.0), theirs, p.arrivalSpread);
 }
 
-// Nothing if it will hardly arrive. `left`: s until an opponent plays the ball where it lies.
+// Nothing if it will hardly arrive. `left`: s until an opponent plays the ball where it lies; `hold`: share
+// of what it needs for that.
 std::optional<double> valueOf(const Situation& s, const world::PlayerState& mate, const Pass& pass,
-                              const Resistance& resistance, double left) {
+                              const Resistance& resistance, double left, double hold) {
   const PassParameters& p = s.parameters.pass;
   const Block& block = resistance.block;
   const double ours = receiverFirst(s, mate, pass, resistance.arrival);
-  if (ours < p.ours || block.probability > p.lane) return std::nullopt;
+  if (ours < hold * p.ours || 1.0 - block.probability < hold * (1.0 - p.lane)) return std::nullopt;
   const double comesOff = probabilityFirst(pass.untilKick, left, s.parameters.choice.setupSpread);
   const double played = valueUnlessStopped(s, block, valueAt(s, pass.p_FTarget, ours));
   return comesOff * played + (1.0 - comesOff) * valueAt(s, s.ball(), kContested);
@@ -86,7 +97,7 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
   const PassParameters& p = s.parameters.pass;
   const Vector2 goal = s.world.field.theirGoal();
   const double left = std::max(timeLeftAtBall(s), s.undisturbed);
-  const std::optional<Vector2> present = presentTarget(s);
+  const std::optional<PresentPass> present = presentPass(s);
   std::optional<Pass> best;
   const double dribbled = dribbleValue(s);
   double most = -std::numeric_limits<double>::infinity();
@@ -107,10 +118,10 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
         Pass pass{unum, target, kick.name};
         pass.untilKick = timeToContact(s, kick.head, directionOf(way) - kick.head.direction);
         pass.untilThere = pass.untilKick + p.rollTime;
-        const std::optional<double> value = valueOf(s, mate, pass, *resistance, left);
+        const bool kept = isPresent(s, present, pass);
+        const std::optional<double> value = valueOf(s, mate, pass, *resistance, left, kept ? p.hold : 1.0);
         if (!value) continue;
-        pass.value = *value;
-        if (present && (*present - target).norm() < p.same) pass.value += p.keep;
+        pass.value = *value + (kept ? p.keep : 0.0);
         if (record != nullptr) record->add(target, pass.value);
         if (pass.value <= std::max(most, dribbled + demand.better)) continue;
         most = pass.value;

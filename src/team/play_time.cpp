@@ -12,6 +12,7 @@ namespace {
 
 // Most repetitions until place and time of the meeting agree; the way to a ball that lies still needs two.
 constexpr int kMeetings = 5;
+constexpr double kSoonest = 0.3;  // s until who still lies is on its feet
 
 double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_FTarget,
                    const PaceParameters& pace) {
@@ -22,11 +23,22 @@ double timeToPlace(const Runner& runner, const Vector2& p_FB, const Vector2& p_F
   const double wrongSide = 0.5 * (1.0 - std::cos(bearing - directionOf(onward)));
   const double turn =
       runner.headingKnown ? std::abs(angleDifference(bearing, runner.X_FP.rotation)) : 0.5 * kPi;
-  return (way.norm() + wrongSide * pace.wayAround) / pace.walkSpeed + turn / pace.turnSpeed +
-         (runner.fallen ? pace.risingTime : 0.0);
+  return (way.norm() + wrongSide * pace.wayAround) / pace.walkSpeed + turn / pace.turnSpeed + runner.rises;
+}
+
+// Who has lain for longer than a rise takes tries again.
+double risesIn(const world::PlayerState& player, double time, const PaceParameters& pace) {
+  if (!player.fallen) return 0.0;
+  if (player.fallenSince == world::kNever || pace.risingTime <= 0.0) return pace.risingTime;
+  const double lain = std::fmod(std::max(time - player.fallenSince, 0.0), pace.risingTime);
+  return std::max(pace.risingTime - lain, kSoonest);
 }
 
 }  // namespace
+
+Runner runnerOf(const world::PlayerState& player, double time, const PaceParameters& pace) {
+  return {player.X_FP, player.headingKnown, risesIn(player, time, pace)};
+}
 
 double nearestOf(std::span<const world::PlayerState> players, const Vector2& p_F) {
   double nearest = std::numeric_limits<double>::infinity();

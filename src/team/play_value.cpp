@@ -43,10 +43,12 @@ Block blockOf(const Situation& s, const Vector2& end) {
   Block block;
   double passes = 1.0;
   for (const world::PlayerState& opponent : s.world.opponents) {
-    if (!opponent.known || opponent.fallen) continue;
+    if (!opponent.known) continue;
     const auto [ahead, aside] = way.placeOf(opponent.X_FP.translation);
     if (ahead < 0.0 || ahead > way.length()) continue;
-    const double reach = p.blockWidth + (p.blockGrowth + p.spread) * ahead;
+    // Who lies steps nowhere.
+    const double growth = p.spread + (opponent.fallen ? 0.0 : p.blockGrowth);
+    const double reach = p.blockWidth + growth * ahead;
     const double stops = std::clamp(1.5 - std::abs(aside) / std::max(reach, 1e-6), 0.0, 1.0);
     passes *= 1.0 - stops;
     if (stops <= block.probability) continue;

@@ -32,6 +32,14 @@ protocol::RoleVote fixedVote(int onBall) {
   return vote;
 }
 
+// s by which another one must be sooner: less when it is still far, nothing when it lies.
+double keepsFor(const Situation& situation, int unum) {
+  const auto number = static_cast<std::size_t>(unum);
+  if (situation.world.teammates[number].fallen) return 0.0;
+  const double near = 1.5 - 0.5 * situation.timeToBall[number];  // 1 when it is a second away
+  return situation.parameters.keepBallTime * std::clamp(near, situation.parameters.keepBallFar, 1.0);
+}
+
 }  // namespace
 
 void RoleVoting::update(const Situation& situation, int banned) {
@@ -66,11 +74,10 @@ void RoleVoting::vote(const Situation& situation, int banned) {
     const world::RadioReport& report = world.radio[number];
     const double since = world.time - report.time;
     const bool silent = since < parameters.voteAge && !report.message.timeToBall;
-    const bool gone = report.time > world::kNever && unum != world.game.unum && since > parameters.goneAfter;
     if (silent) squad.times[i] += parameters.silentPenalty;
-    if (unum == banned || gone) squad.times[i] += parameters.bannedPenalty;
+    if (unum == banned || situation.hasGone(unum)) squad.times[i] += parameters.bannedPenalty;
     // Before a kick-off players come in one by one, and nobody is on its way yet.
-    if (unum == onBall_ && !situation.waitsForKickOff()) squad.times[i] -= situation.parameters.keepBallTime;
+    if (unum == onBall_ && !situation.waitsForKickOff()) squad.times[i] -= keepsFor(situation, unum);
   }
   if (squad.count == 0) return;
 
@@ -103,6 +110,15 @@ void RoleVoting::vote(const Situation& situation, int banned) {
   vote_ = vote;
 }
 
+// Those from before it fell do not know of that. All that are there if nobody names another.
+std::size_t RoleVoting::withoutVotesForWhoFell(const world::WorldState& world,
+                                               std::span<const protocol::RoleVote*> votes) const {
+  if (onBall_ == 0 || !world.teammates[static_cast<std::size_t>(onBall_)].fallen) return votes.size();
+  const auto names = [&](const protocol::RoleVote* vote) { return playerOnBall(*vote) == onBall_; };
+  if (std::all_of(votes.begin(), votes.end(), names)) return votes.size();
+  return static_cast<std::size_t>(std::remove_if(votes.begin(), votes.end(), names) - votes.begin());
+}
+
 void RoleVoting::count(const Situation& situation, int banned) {
   const world::WorldState& world = situation.world;
   const double voteAge = situation.parameters.agreement.voteAge;
@@ -118,6 +134,7 @@ void RoleVoting::count(const Situation& situation, int banned) {
     // Votes from before a set piece was taken do not know of the ban.
     if (vote != nullptr && (banned == 0 || playerOnBall(*vote) != banned)) votes[number++] = vote;
   }
+  number = withoutVotesForWhoFell(world, {votes.data(), number});
   if (number == 0) return;
 
   // First the player on the ball, then the most common of the votes that agree on that; the earlier speaker

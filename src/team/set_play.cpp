@@ -57,4 +57,11 @@ SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGe
   return play;
 }
 
+bool ballNotPut(const world::WorldState& world) {
+  constexpr double kPutAfter = 1.05;  // s
+  const world::Phase phase = world.game.phase;
+  return world::isOwnSetPiece(phase) && phase != world::Phase::OwnKickOff &&
+         world.time - world.game.phaseSince < kPutAfter;
+}
+
 }  // namespace nonet::team

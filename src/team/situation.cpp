@@ -20,15 +20,16 @@ Formation placesFor(const Situation& s) {
   const world::WorldState& world = s.world;
   if (s.phase() == world::Phase::OwnKickOff)
     return kickOffFormation(s.ball(), world.field, s.parameters.setPlay);
-  FormationParameters parameters = s.parameters.formation;
+  // Where the one on the ball is: at the edge of the forbidden circle, on the own goal's side.
+  Vector2 from = s.ball();
   if (world::isOpponentSetPiece(s.phase())) {
-    // The one on the ball waits at the edge of the forbidden circle, the stopper behind it.
-    parameters.stopperBehind = std::max(parameters.stopperBehind, s.clearOfOpponentKick() + parameters.apart);
+    const Vector2 home = world.field.ownGoal() - from;
+    from += std::min(s.clearOfOpponentKick(), 0.5 * home.norm()) * home.stableNormalized();
   }
   // The stopper is the receiver of the own set piece, so whoever is next to that place is the stopper.
   const std::optional<Vector2> receiver = s.setPlay ? std::optional(s.setPlay->p_FReceiver) : std::nullopt;
-  return formationFor(s.ball(), kFieldRoles, world.field, parameters, s.parameters.variant, world.opponents,
-                      receiver);
+  return formationFor(from, kFieldRoles, world.field, s.parameters.formation, s.parameters.variant,
+                      world.opponents, receiver);
 }
 
 // Straight away from the own goal.
@@ -41,8 +42,8 @@ template <class Which>
 bool anyMate(const Situation& s, const Which& which) {
   const auto& mates = s.world.teammates;
   return std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
-    const bool self = &mate == &mates[static_cast<std::size_t>(s.world.game.unum)];
-    return mate.known && !self && which(mate);
+    const auto unum = static_cast<int>(&mate - mates.data());
+    return mate.known && unum != s.world.game.unum && !s.hasGone(unum) && which(mate);
   });
 }
 
@@ -70,16 +71,16 @@ BallPlay setPiece(const Situation& s, Candidates* record) {
   if (s.phase() != world::Phase::OwnKickOff && s.parameters.ball.kick) {
     const BallChoice choice = chooseSetPiece(s, record);
     if (choice.kick) {
-      BallPlay play = playTowards(s, choice.p_FTarget, KickUse::Clear);
+      BallPlay play = playTowards(s, choice.p_FTarget, KickUse::Clear, ballNotPut(s.world));
       play.kick = choice.with;
       if (record != nullptr) play.candidates = record->all();
       return play;
     }
   }
   const bool alone = !anyMate(s, [](const world::PlayerState&) { return true; });
-  if (alone) return playTowards(s, s.p_FTarget, KickUse::Clear);
+  if (alone) return playTowards(s, s.p_FTarget, KickUse::Clear, ballNotPut(s.world));
   const double waited = s.world.time - s.world.game.phaseSince;
-  const bool wait = waited < s.parameters.waitForReceiver && !receiverReady(s);
+  const bool wait = ballNotPut(s.world) || (waited < s.parameters.waitForReceiver && !receiverReady(s));
   BallPlay play = playTowards(s, s.setPlay->p_FTarget, KickUse::Never, wait);
   // Whoever walks into the ball often touches it twice.
   if (const auto* kick = kickThatGoes(s, (play.p_FTarget - s.ball()).norm())) {
@@ -94,6 +95,12 @@ BallPlay setPiece(const Situation& s, Candidates* record) {
 bool Situation::waitsForKickOff() const {
   return phase() == world::Phase::BeforeKickOff || phase() == world::Phase::OwnGoal ||
          phase() == world::Phase::OpponentGoal;
+}
+
+bool Situation::hasGone(int unum) const {
+  const double heard = world.radio[static_cast<std::size_t>(unum)].time;
+  const double since = world.time - heard;
+  return heard > world::kNever && unum != world.game.unum && since > parameters.agreement.goneAfter;
 }
 
 double Situation::clearOfOpponentKick() const {
@@ -125,7 +132,7 @@ BallPlay playTowards(const Situation& s, const Vector2& p_FTarget, KickUse use, 
   play.use = use;
   play.wait = wait;
   const Pose2& X_FR = s.world.self.X_FR;
-  play.p_FMeeting = s.forecast.at(timeToBall({X_FR, true, false}, s.forecast, p_FTarget, s.parameters.pace));
+  play.p_FMeeting = s.forecast.at(timeToBall({X_FR, true}, s.forecast, p_FTarget, s.parameters.pace));
   play.ball = s.world.ball.p_RB;
   play.target = X_FR.inverse() * p_FTarget;
   play.face(directionOf(play.target - play.ball));
@@ -145,7 +152,7 @@ Situation assess(const world::WorldState& world, const TeamParameters& parameter
     const world::PlayerState& mate = world.teammates[unum];
     if (!mate.known) continue;
     s.timeToBall[unum] =
-        timeToBall({mate.X_FP, mate.headingKnown, mate.fallen}, s.forecast, s.p_FTarget, parameters.pace);
+        timeToBall(runnerOf(mate, world.time, parameters.pace), s.forecast, s.p_FTarget, parameters.pace);
   }
   const world::RadioReport& goalie = world.radio[1];
   s.goalieClaims = world.time - goalie.time < parameters.agreement.claimAge && goalie.message.timeToBall &&
@@ -164,7 +171,7 @@ std::optional<BallPlay> ownTurn(const Situation& s, Candidates* record) {
   if (!s.acts()) return std::nullopt;
   if (s.role == Role::Goalie) {
     if (!s.claims) return std::nullopt;
-    return playTowards(s, clearanceTarget(s), KickUse::Clear);
+    return playTowards(s, clearanceTarget(s), KickUse::Clear, ballNotPut(s.world));
   }
   const bool opponents = world::isOpponentSetPiece(s.phase());
   if (s.role != Role::OnBall || s.goalieClaims || opponents) return std::nullopt;

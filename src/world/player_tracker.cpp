@@ -146,7 +146,7 @@ void PlayerTracker::merge(const Sighting& sighting, double time, PlayerState& pl
             : sighting.heading;
     player.headingKnown = true;
   }
-  if (sighting.fallen) player.fallen = *sighting.fallen;
+  if (sighting.fallen) player.lies(*sighting.fallen, time);
   player.known = true;
   player.lastSeen = time;
 }
@@ -202,7 +202,7 @@ void PlayerTracker::hear(const Report& report, WorldState& state) const {
   // but the number's own word on falling always counts.
   const bool seenNow = player.lastSeen == state.time && player.sigma < report.sigma;
   if (player.known && (seenNow || report.sigma > kForgetSigma)) {
-    player.fallen = report.fallen;
+    player.lies(report.fallen, state.time);
     return;
   }
   merge(sighting, state.time, player);
@@ -230,7 +230,7 @@ void PlayerTracker::hear(const OpponentReport& report, WorldState& state) const 
   }
   // Two places told by different eyes are no speed; nobody tells one.
   if (state.time - player.lastSighted > kOwnSpeed) player.v_FP.setZero();
-  player.fallen = report.fallen;
+  player.lies(report.fallen, state.time);
   player.known = true;
   player.lastSeen = report.seenAt;
 }

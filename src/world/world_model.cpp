@@ -190,7 +190,7 @@ void WorldModel::Stages::followOthers(const protocol::Percept& percept) {
     own.sigma = std::sqrt(std::max(state.self.covariance(0, 0), state.self.covariance(1, 1)));
     own.lastSeen = state.time;
     own.known = own.headingKnown = localization.initialised();
-    own.fallen = isFallen(state.body.posture);
+    own.lies(isFallen(state.body.posture), state.time);
   }
 }
 

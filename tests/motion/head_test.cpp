@@ -82,5 +82,23 @@ TEST_F(Head, ScanSweepsBothSidesFromWhereverItBegins) {
   EXPECT_NEAR(high, parameters_.scanPan, 0.05);
 }
 
+// A ball straight behind, now a little left, now a little right of that: the head waits on its side.
+TEST_F(Head, KeepsToItsSideForWhatIsStraightBehind) {
+  HeadRequest request;
+  request.kind = HeadRequest::Kind::Point;
+  request.p_RP = {-1.0, 0.5, -0.3};
+  for (int i = 0; i < 60; ++i) step(request);
+  const double side = pan();
+  ASSERT_GT(side, 1.5);
+  for (const double left : {-0.05, 0.05, -0.1, 0.1}) {
+    request.p_RP.y() = left;
+    step(request);
+    EXPECT_NEAR(pan(), side, 1e-9) << left;
+  }
+  request.p_RP.y() = -0.5;
+  for (int i = 0; i < 100; ++i) step(request);
+  EXPECT_LT(pan(), -1.5) << "clearly on the other side";
+}
+
 }  // namespace
 }  // namespace nonet::motion

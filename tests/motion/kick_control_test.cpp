@@ -148,14 +148,16 @@ TEST(KickChoice, ExactKicksAreForThoseWhoAskForOne) {
 }
 
 // On the spot, up to the end of a step that stands on this foot.
-void stepUntilItStandsOn(Side foot, WalkEngine& walk) {
+void stepUntilItStandsOn(Side foot, WalkEngine& walk, double pitch = 0.0) {
   world::BodyState body;
   body.cycleTime = kCycleTime;
+  body.pitch = pitch;
   WalkCommand command;
   command.walk = true;
   JointTargets targets;
   for (int i = 0;
-       i < 200 && (walk.standing() || walk.gait().stance != foot || walk.gait().phase < 1.0 - 1e-6); ++i)
+       i < 200 && (i < 20 || walk.standing() || walk.gait().stance != foot || walk.gait().phase < 1.0 - 1e-6);
+       ++i)
     walk.update(body, WalkParameters{}, command, targets);
 }
 
@@ -336,6 +338,43 @@ TEST(KickControl, ComesToABallBehindWithoutTouchingIt) {
     const Vector2 way = X_WR.rotate(Vector2(-1.0, 0.0));
     EXPECT_GT(way.x(), std::cos(toRadians(15.0))) << bearing;  // its back to the target
   }
+}
+
+// Slow because it was hit: its torso sees the ball elsewhere than its feet have it.
+TEST(KickChoice, NoKickBeginsWhileTheRobotStumbles) {
+  Kicks kicks(
+      "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } }");
+  KickTo kick;
+  kick.ball = {0.2, 0.05};
+  kick.target = {10.0, 0.05};
+  for (const double pitch : {0.0, 0.3}) {
+    KickControl control(kicks.catalogue, KickParameters{});
+    stepUntilItStandsOn(Side::Left, kicks.walk, pitch);
+    EXPECT_EQ(control.update(kick, kicks.walk, 0.0).begin, pitch == 0.0) << pitch;
+  }
+}
+
+// A cycle that took twice as long does not make the robot twice as fast.
+TEST(KickChoice, ALostMessageDoesNotChangeWhatAKickIsTold) {
+  const auto pace = [](double cycleTime) {
+    Kicks kicks(
+        "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } "
+        "}");
+    KickTo kick;
+    kick.ball = {0.2, 0.05};
+    kick.target = {10.0, 0.05};
+    world::BodyState body;
+    JointTargets targets;
+    body.cycleTime = kCycleTime;
+    for (int i = 0; i < 100; ++i)
+      kicks.walk.update(body, WalkParameters{}, {.speed = Pose2(0.1, 0.0, 0.0), .walk = true}, targets);
+    body.cycleTime = cycleTime;
+    kicks.walk.update(body, WalkParameters{}, {.speed = Pose2(0.1, 0.0, 0.0), .walk = true}, targets);
+    KickControl control(kicks.catalogue, KickParameters{});
+    return control.update(kick, kicks.walk, 0.0).aim.pace.x();
+  };
+  EXPECT_GT(pace(kCycleTime), 0.03);
+  EXPECT_NEAR(pace(2.0 * kCycleTime), pace(kCycleTime), 1e-6);
 }
 
 }  // namespace

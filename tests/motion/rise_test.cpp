@@ -126,6 +126,28 @@ TEST(FallControl, BeginsAnewWhenTheRobotComesToLieOnAnotherSide) {
   }
 }
 
+// It rises, stands for a second, in part of which a skill is played and nobody asks, and falls again.
+TEST(FallControl, AFallAfterASkillIsANewOne) {
+  const TrialSettings setup = agentTrialSettings(0);
+  Fallen robot(setup);
+  robot.state.body.cycleTime = kCycleTime;
+  for (int cycle = 0; cycle < 40; ++cycle) robot.lie(world::Posture::FallenBack, 10.0 + cycle * kCycleTime);
+  ASSERT_EQ(robot.fall.attempts(), 1);
+  motion::JointTargets targets;
+  robot.state.body.posture = world::Posture::Upright;
+  robot.state.body.torsoHeight = robot.model.standingHeight();
+  double time = 10.8;
+  for (bool rises = true; rises; time += kCycleTime) {
+    robot.state.time = time;
+    rises = robot.fall.update(robot.state, robot.player, targets);
+    ASSERT_LT(time, 20.0);
+  }
+  EXPECT_EQ(robot.fall.attempts(), 1);
+  for (int cycle = 0; cycle < 40; ++cycle)
+    robot.lie(world::Posture::FallenBack, time + 1.0 + cycle * kCycleTime);
+  EXPECT_EQ(robot.fall.attempts(), 1);
+}
+
 // A goal falls while a robot rises, and it is beamed to its place: it stands there.
 TEST(Rising, ABeamEndsIt) {
   const TrialSettings setup = agentTrialSettings(0);

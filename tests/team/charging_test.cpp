@@ -69,5 +69,26 @@ TEST(Charging, StillTurnsWhereTheWayTurns) {
   EXPECT_GT(std::get<motion::WalkVelocity>(*slowly).velocity.rotation, 0.1);
 }
 
+TEST(Charging, RunsOnBesideAnOpponent) {
+  const double aside = TeamParameters{}.charging.aside;
+  EXPECT_FALSE(std::isinf(speedTowards(sceneWith({0.8, 0.0}, {0.3, aside - 0.02}))));
+  EXPECT_TRUE(std::isinf(speedTowards(sceneWith({0.8, 0.0}, {0.3, aside + 0.02}))));
+}
+
+// Server facts 4.10: the goalie is let go in its own area only.
+TEST(Charging, TheGoalieSlowsDownOutsideOfItsArea) {
+  const auto slows = [](double x) {
+    Scene scene;
+    scene.world.game.unum = 1;
+    scene.stand(Pose2(x, 0.0, 0.0));
+    scene.putBall({x + 0.6, 0.0});
+    Scene::put(scene.world.opponents[4], Pose2(x + 0.45, 0.1, kPi));
+    return spareOpponents(scene.situation(Role::Goalie), motion::WalkTo{Pose2(1.0, 0.0, 0.0), false})
+        .has_value();
+  };
+  EXPECT_FALSE(slows(-14.0));
+  EXPECT_TRUE(slows(-12.5));
+}
+
 }  // namespace
 }  // namespace nonet::team

@@ -166,5 +166,19 @@ TEST(Detour, TurnsToTheSideThatOneFaces) {
   EXPECT_LT(detour({0.0, 0.0}, to, discs, {-0.5, 0.3}).next.y(), 0.0);
 }
 
+// A gap between two, or the way around one of them.
+TEST(Detour, SqueezesThroughWhereThatIsMuchShorter) {
+  const std::vector<Disc> discs = {{{2.0, -0.6}, 0.7}, {{2.0, 0.6}, 0.7}};
+  const Vector2 to(4.0, 0.0);
+  const Detour around = detour({0.0, 0.0}, to, discs);
+  ASSERT_FALSE(around.straight);
+  ASSERT_FALSE(around.blocked);
+  const Detour between = detour({0.0, 0.0}, to, discs, {}, 0.4);
+  EXPECT_TRUE(between.straight);
+  EXPECT_TRUE(between.blocked);
+  const Detour notFor = detour({0.0, 0.0}, to, discs, {}, around.length - between.length + 0.01);
+  EXPECT_EQ(notFor.next, around.next);
+}
+
 }  // namespace
 }  // namespace nonet::team

@@ -297,5 +297,27 @@ TEST(Goalie, StaysBetweenBallAndGoal) {
   }
 }
 
+// Server facts 4.7: who is in the circle is carried away.
+TEST(Goalie, LeavesTheCircleOfTheirFreeKickIfThereIsRoom) {
+  Scene scene = goalieScene({-12.0, 0.0}, {0.0, 0.0});
+  scene.stand(Pose2(-14.9, 0.0, 0.0));
+  scene.world.game.phase = world::Phase::OpponentFreeKick;
+  const double clear = scene.situation(Role::Goalie).clearOfOpponentKick();
+  const Pose2 there = guardPlace({-12.0, 0.0}, {}, {}, clear);
+  EXPECT_GE((there.translation - Vector2(-12.0, 0.0)).norm(), clear - 1e-9);
+  EXPECT_LT((guardPlace({-12.0, 0.0}, {}, {}).translation - Vector2(-12.0, 0.0)).norm(), clear);
+  const Action action = scene.decideAs(Role::Goalie);
+  EXPECT_EQ(action.reason.behavior, "guard goal");
+  EXPECT_GE((goalOf(scene, action) - Vector2(-12.0, 0.0)).norm(), clear - 0.15);
+}
+
+TEST(Goalie, DoesNotWaitForAMateThatHasFallenSilent) {
+  Scene scene = goalieScene({-13.3, 0.3}, {0.0, 0.0});
+  Scene::put(scene.world.teammates[3], Pose2(-13.6, 0.3, 0.0));
+  EXPECT_FALSE(goalieWantsBall(scene.situation(Role::Goalie), false)) << "the mate is there";
+  scene.world.radio[3].time = scene.world.time - scene.parameters.agreement.goneAfter - 0.1;
+  EXPECT_TRUE(goalieWantsBall(scene.situation(Role::Goalie), false));
+}
+
 }  // namespace
 }  // namespace nonet::team

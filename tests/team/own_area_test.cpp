@@ -110,12 +110,30 @@ TEST(OwnArea, TheBackEntersWhileThereIsRoom) {
   Scene::put(scene.world.teammates[3], Pose2(-14.2, 1.2, 0.0));
   scene.stand(Pose2(-12.5, 0.0, kPi));
   EXPECT_EQ(matesInOwnArea(scene.world), 2);
-  const Situation situation = scene.situation(Role::BackLeft);
+  Situation situation = scene.situation(Role::BackLeft);
+  situation.onBall = 3;
   ASSERT_TRUE(inOwnArea(kField, situation.formation.positions[static_cast<std::size_t>(Role::BackLeft)]));
   const Action action = decide(situation);
   const auto* walk = std::get_if<motion::WalkTo>(&action.motion);
   ASSERT_NE(walk, nullptr);
   EXPECT_TRUE(inOwnArea(kField, scene.world.self.X_FR * walk->target.translation));
+}
+
+// Who lies in the area, the goalie, and one more that comes to play the ball are three.
+TEST(OwnArea, TheBackKeepsAPlaceForTheOneOnTheBall) {
+  Scene scene;
+  scene.putBall({-14.0, 1.0});
+  Scene::put(scene.world.teammates[1], Pose2(-14.5, 0.3, 0.0));
+  Scene::put(scene.world.teammates[3], Pose2(-14.2, 1.2, 0.0));
+  Scene::put(scene.world.teammates[6], Pose2(-12.9, 1.2, 0.0));
+  scene.stand(Pose2(-12.5, 0.0, kPi));
+  const auto enters = [&](int onBall) {
+    Situation situation = scene.situation(Role::BackLeft);
+    situation.onBall = onBall;
+    return inOwnArea(kField, goalOf(scene, decide(situation)));
+  };
+  EXPECT_TRUE(enters(3)) << "who is inside plays it";
+  EXPECT_FALSE(enters(6)) << "who is outside does";
 }
 
 }  // namespace

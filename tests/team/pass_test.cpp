@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/math/straight_way.h"
+
 #include "scene.h"
 
 namespace nonet::team {
@@ -186,6 +188,50 @@ TEST(RunToPass, ForgetsAPassThatDoesNotCome) {
   scene.world.time = scene.world.pass.thereAt + scene.parameters.pass.late + 0.1;
   scene.world.ball.lastSeen = scene.world.time;
   EXPECT_EQ(scene.decideAs(Role::WingLeft).reason.behavior, "support") << "it is too late";
+}
+
+TEST(Pass, NotThroughAnOpponentThatLiesThere) {
+  Passing scene;
+  ASSERT_TRUE(scene.best());
+  const Vector2 middle = 0.5 * (scene.mate() + Vector2(1.0, 0.0));
+  Scene::put(scene.world.opponents[4], Pose2(middle, kPi));
+  scene.world.opponents[4].fallen = true;
+  const std::optional<Pass> past = scene.best();
+  EXPECT_TRUE(!past || StraightWay(scene.world.ball.p_FB.head<2>(), past->p_FTarget).distanceTo(middle) > 0.2)
+      << "past it, if at all";
+}
+
+TEST(Pass, NotToAMateThatHasFallenSilent) {
+  Passing scene;
+  scene.world.radio[kReceiver].time = scene.world.time - scene.parameters.agreement.goneAfter + 0.1;
+  EXPECT_TRUE(scene.best());
+  scene.world.radio[kReceiver].time = scene.world.time - scene.parameters.agreement.goneAfter - 0.1;
+  EXPECT_FALSE(scene.best());
+}
+
+// A lane that is just too narrow to begin with.
+TEST(Pass, OneThatIsBeingLinedUpIsNotGivenUpForALittle) {
+  Passing scene;
+  motion::KickTo lined;
+  lined.ball = scene.world.ball.p_RB;
+  lined.target = scene.world.self.X_FR.inverse() * scene.best().value().p_FTarget;
+  lined.stops = true;
+  lined.kick = std::string_view("pass");
+  const Vector2 middle = 0.5 * (scene.mate() + Vector2(1.0, 0.0));
+  const Vector2 aside = Vector2(-2.5, 3.5).normalized();
+  int held = 0, given = 0;
+  for (double off = 1.5; off > 0.0; off -= 0.02) {
+    Scene::put(scene.world.opponents[4], Pose2(middle + off * aside, kPi));
+    scene.motion.request = motion::Stand{};
+    const bool begun = scene.best().has_value();
+    scene.motion.request = lined;
+    const bool goesOn = scene.best().has_value();
+    EXPECT_TRUE(goesOn || !begun) << off;
+    held += goesOn && !begun ? 1 : 0;
+    given += goesOn ? 0 : 1;
+  }
+  EXPECT_GT(held, 0);
+  EXPECT_GT(given, 5) << "but it is given up";
 }
 
 }  // namespace

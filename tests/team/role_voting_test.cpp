@@ -69,6 +69,7 @@ class Team {
   Vector2 ball = Vector2(1.0, 1.0);
   int banned = 0;
   int vanished = 0;  // says nothing any more
+  int lying = 0;     // has fallen, and everybody sees it
   world::Phase phase = world::Phase::PlayOn;
   VariantParameters& variant() { return parameters_.variant; }
 
@@ -86,6 +87,7 @@ class Team {
       mate.known = mate.headingKnown = true;
       const Vector2 error = k == i ? Vector2::Zero() : noise_[i * 12 + k];
       mate.X_FP = Pose2(places_[k] + error, 0.0);
+      mate.lies(static_cast<int>(k) + kFirst == lying, time_);
     }
   }
 
@@ -205,6 +207,47 @@ TEST(RoleVoting, WithoutAViewOfTheFieldThereIsNoVote) {
     voting.update(assess(world, parameters, motion), 0);
     EXPECT_FALSE(voting.vote().has_value());
   }
+}
+
+// The one on the ball falls beside it; the next one is so far that it would not get it otherwise.
+TEST(RoleVoting, WhoFallsLosesTheBallAtOnce) {
+  Team team(3);
+  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.place(4) = team.ball + Vector2(-0.3, 0.0);
+  team.place(5) = team.ball + Vector2(-1.4, -0.3);
+  team.run(1.5);
+  ASSERT_EQ(team.agreedOnBall(), 4);
+  team.run(2.0);
+  ASSERT_EQ(team.agreedOnBall(), 4);
+  team.lying = 4;
+  team.run(0.3);
+  EXPECT_EQ(team.agreedOnBall(), 5) << "after a third of a second, when most have not spoken again";
+}
+
+TEST(RoleVoting, WhoFallsKeepsTheBallIfNobodyIsNear) {
+  Team team(3);
+  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.place(4) = team.ball + Vector2(-0.3, 0.0);
+  team.run(1.5);
+  team.lying = 4;
+  team.run(2.0);
+  EXPECT_EQ(team.agreedOnBall(), 4);
+}
+
+// From far away there is less to lose than at the ball.
+TEST(RoleVoting, WhoIsFarFromTheBallIsRelievedSooner) {
+  const auto keeps = [](double far, double sooner) {
+    Team team(3);
+    for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+    team.place(4) = team.ball + Vector2(-far, 0.0);
+    team.run(1.5);
+    EXPECT_EQ(team.agreedOnBall(), 4);
+    team.place(5) = team.ball + Vector2(-far + sooner * PaceParameters{}.walkSpeed, 0.1);
+    team.run(1.5);
+    return team.agreedOnBall() == 4;
+  };
+  EXPECT_TRUE(keeps(0.9, 0.6));
+  EXPECT_FALSE(keeps(4.0, 0.9));
 }
 
 }  // namespace

@@ -193,5 +193,66 @@ TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
   }
 }
 
+// Rising takes its time from the fall on; who has not come up by then tries again.
+TEST(Situation, WhoHasLainForLongerIsSoonerAtTheBall) {
+  Scene scene;
+  const double upright = scene.situation(Role::Stopper).timeToBall[5];
+  const double rising = scene.parameters.pace.risingTime;
+  const auto time = [&](double lain) {
+    scene.world.teammates[5].fallen = false;
+    scene.world.teammates[5].lies(true, scene.world.time - lain);
+    scene.world.teammates[5].lies(true, scene.world.time);
+    return scene.situation(Role::Stopper).timeToBall[5];
+  };
+  EXPECT_NEAR(time(0.0), upright + rising, 1e-9);
+  EXPECT_NEAR(time(1.0), upright + rising - 1.0, 1e-9);
+  EXPECT_GT(time(rising - 0.01), upright + 0.2);
+  EXPECT_NEAR(time(rising + 1.0), time(1.0), 1e-9);
+}
+
+// The blocker stands on the edge of the circle that the referee clears: nobody else is sent there.
+TEST(Situation, AtTheirSetPiecesNobodyStandsWhereTheBlockerDoes) {
+  Scene scene;
+  const auto expectRoom = [&](world::Phase phase, const Vector2& ball) {
+    scene.world.game.phase = phase;
+    scene.putBall(ball);
+    const Situation s = scene.situation(Role::Stopper);
+    const Vector2 blocker = ball + s.clearOfOpponentKick() * (s.world.field.ownGoal() - ball).normalized();
+    for (std::size_t i = 1; i < 8; ++i)
+      EXPECT_GT((s.formation.positions[i] - blocker).norm(), 0.9)
+          << "role " << i << " ball " << ball.transpose();
+  };
+  expectRoom(world::Phase::OpponentKickOff, {0.0, 0.0});
+  expectRoom(world::Phase::OpponentGoalKick, {14.0, 0.0});
+  for (double x = -9.0; x < 14.0; x += 1.0) {
+    expectRoom(world::Phase::OpponentKickIn, {x, 9.958});
+    expectRoom(world::Phase::OpponentFreeKick, {x, -3.0});
+  }
+}
+
+// Before the referee puts the ball a touch does not count, and who is near is pushed away.
+TEST(Situation, TheTakerKeepsAwayUntilTheBallIsPut) {
+  Scene scene;
+  scene.putBall({5.0, 9.958});
+  scene.stand(Pose2(4.8, 9.9, 0.0));
+  scene.world.game.phase = world::Phase::OwnKickIn;
+  scene.world.game.phaseSince = scene.world.time - 0.5;
+  Action action = scene.decideAs(Role::OnBall);
+  EXPECT_EQ(action.reason.behavior, "wait at ball");
+  EXPECT_GT((goalOf(scene, action) - Vector2(5.0, 9.958)).norm(), 0.5);
+  // The receiver is there.
+  scene.world.game.phaseSince = scene.world.time - 1.2;
+  Scene::put(scene.world.teammates[6], Pose2(scene.situation(Role::OnBall).setPlay->p_FReceiver, 0.0));
+  action = scene.decideAs(Role::OnBall);
+  EXPECT_NE(action.reason.behavior, "wait at ball");
+  // At the kick-off the ball lies there from the first cycle on.
+  scene.putBall({0.0, 0.0});
+  scene.stand(Pose2(-0.3, 0.0, 0.0));
+  scene.world.game.phase = world::Phase::OwnKickOff;
+  scene.world.game.phaseSince = scene.world.time - 0.5;
+  Scene::put(scene.world.teammates[6], Pose2(scene.situation(Role::OnBall).setPlay->p_FReceiver, 0.0));
+  EXPECT_NE(scene.decideAs(Role::OnBall).reason.behavior, "wait at ball");
+}
+
 }  // namespace
 }  // namespace nonet::team

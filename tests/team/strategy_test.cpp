@@ -176,7 +176,7 @@ TEST(Strategy, TheTakerWaitsForTheReceiverButNotForEver) {
   Scene scene;
   scene.motion.kicks = {};
   scene.world.game.phase = Phase::OwnFreeKick;
-  scene.world.game.phaseSince = scene.world.time - 1.0;
+  scene.world.game.phaseSince = scene.world.time - 1.2;
   Scene::put(scene.world.teammates[7], Pose2(-8.0, 0.0, 0.0));
   EXPECT_EQ(scene.decideAs(Role::OnBall).reason.behavior, "wait at ball");
   const Situation situation = scene.situation(Role::OnBall);

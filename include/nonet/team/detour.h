@@ -1,6 +1,7 @@
 // The shortest way around discs: where to go next so that nobody is run into.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "nonet/math/types.h"
@@ -28,6 +29,9 @@ struct Facing {
 
 /// Straight pieces from `from` to `to`, around either side of each disc in the way. Exact for one disc but
 /// for its corner, which lies outside of the arc; greedy for several, at most four corners behind each other.
-Detour detour(const Vector2& from, const Vector2& to, std::span<const Disc> discs, const Facing& facing = {});
+/// Where that finds no way, or one that is longer by more than `squeezeFor` (m), between the others with less
+/// room.
+Detour detour(const Vector2& from, const Vector2& to, std::span<const Disc> discs, const Facing& facing = {},
+              double squeezeFor = std::numeric_limits<double>::infinity());
 
 }  // namespace nonet::team

@@ -10,8 +10,10 @@
 
 namespace nonet::team {
 
-/// Where the goalie waits while the ball is at p_FB, facing it; own field frame, m.
-Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters);
+/// Where the goalie waits while the ball is at p_FB, facing it, and if there is room that far from it; own
+/// field frame, m.
+Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters,
+                 double clear = 0.0);
 
 /// A ball that will be in the goal unless the goalie meets it: where it passes the robot.
 struct ComingShot {

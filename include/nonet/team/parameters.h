@@ -19,7 +19,7 @@ namespace nonet::team {
 struct PaceParameters {
   double walkSpeed = 1.1;
   double turnSpeed = 3.0;
-  double risingTime = 2.0;
+  double risingTime = 2.5;
   double wayAround = 0.5;
   double longestRoll = 6.0;
   double carryDistance = 0.5;
@@ -292,6 +292,7 @@ struct TeamParameters {
   double avoidDistance = 0.45;
   double onBallRoom = 0.8;
   double keepBallTime = 1.0;
+  double keepBallFar = 0.3;
   double clearOfOpponentKick = 2.3;
   double clearOfGoalKick = 0.8;
   double waitForReceiver = 8.0;
@@ -332,6 +333,13 @@ struct TeamParameters {
            search(0, 3),
            "Another player must be sooner at the ball by this to take it over"},
           self.keepBallTime);
+    visit(
+        {"keepBallFar",
+         Unit::None,
+         {0, 1},
+         search(0, 1),
+         "By this share of that from one that is still far: in full it counts up to a second from the ball"},
+        self.keepBallFar);
     visit({"clearOfOpponentKick",
            Unit::Metre,
            {0, 10},

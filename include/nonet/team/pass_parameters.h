@@ -21,7 +21,8 @@ struct PassParameters {
   double far = 10.0;
   double farLeast = 2.2;
   double farBetter = 0.0;
-  double keep = 0.01;
+  double keep = 0.03;
+  double hold = 0.85;
   double same = 1.0;
   double before = 0.3;
   double late = 1.0;
@@ -91,6 +92,12 @@ struct PassParameters {
            search(0, 0.05),
            "Goals that another pass must be worth more than the one that is on its way"},
           self.keep);
+    visit({"hold",
+           Unit::None,
+           {0.1, 1},
+           search(0.5, 1),
+           "Share of `ours` that this one needs, and of what its lane must leave free"},
+          self.hold);
     visit({"same", Unit::Metre, {0, 10}, fixed, "That one ends at most so far from where it did"}, self.same);
     visit({"before",
            Unit::Metre,

@@ -191,6 +191,7 @@ struct ChargingParameters {
   double reach = 0.5;
   double lead = 0.05;
   double closing = 0.3;
+  double aside = 0.35;
   double touched = 0.25;
 
   template <class Self, class Visitor>
@@ -217,6 +218,8 @@ struct ChargingParameters {
            search(0, 0.8),
            "Only a way whose cosine with that to the opponent is larger leads into it"},
           self.closing);
+    visit({"aside", Unit::Metre, {0, 2}, search(0.2, 0.5), "and one that passes it nearer than this"},
+          self.aside);
     visit({"touched",
            Unit::Metre,
            {0, 1},
@@ -240,6 +243,7 @@ struct NavigationParameters {
   double crowded = 0.1;
   double detourStep = 1.0;
   double slowStep = 0.4;
+  double squeezeFor = 0.4;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -289,6 +293,12 @@ struct NavigationParameters {
            fixed,
            "The same when giving way: the walk slows down towards a near target"},
           self.slowStep);
+    visit({"squeezeFor",
+           Unit::Metre,
+           {0, 100},
+           search(0, 2),
+           "To the ball one goes between others with less room when the way is shorter by this"},
+          self.squeezeFor);
   }
 };
 

@@ -15,8 +15,11 @@ namespace nonet::team {
 struct Runner {
   Pose2 X_FP;
   bool headingKnown = false;
-  bool fallen = false;
+  double rises = 0.0;  // s until it is on its feet
 };
+
+/// A player as it is at `time`, server time in s.
+Runner runnerOf(const world::PlayerState& player, double time, const PaceParameters& pace);
 
 /// m from p_F (own field frame) to the nearest of these players that is known and on its feet; infinite:
 /// none.

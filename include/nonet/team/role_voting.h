@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "nonet/protocol/say_codec.h"
 #include "nonet/team/formation.h"
@@ -31,6 +32,8 @@ class RoleVoting {
  private:
   void vote(const Situation& situation, int banned);
   void count(const Situation& situation, int banned);
+  std::size_t withoutVotesForWhoFell(const world::WorldState& world,
+                                     std::span<const protocol::RoleVote*> votes) const;
 
   RoleAssigner assigner_;
   std::optional<protocol::RoleVote> vote_;

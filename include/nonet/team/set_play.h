@@ -16,4 +16,10 @@ struct SetPlay {
 SetPlay setPlayFor(world::Phase phase, const Vector2& p_FB, const world::FieldGeometry& field,
                    const SetPlayParameters& parameters);
 
+/// An own set piece has begun, and the referee has not put the ball yet: a touch does not count, and then it
+/// pushes who is nearer than half a metre out to that (server facts 4.7). At the kick-off the ball lies
+/// there.
+bool ballNotPut(const world::WorldState& world);
+constexpr double kUntilPut = 0.55;  // m that the taker keeps from the ball
+
 }  // namespace nonet::team

@@ -51,6 +51,8 @@ struct Situation {
   Vector2 ballVelocity() const { return world.self.X_FR.inverse().rotate(world.ball.v_FB.head<2>()); }
   world::Phase phase() const { return world.game.phase; }
   bool waitsForKickOff() const;
+  /// A team mate that has spoken before and has fallen silent: its agent may have ended.
+  bool hasGone(int unum) const;
   /// m from the ball that everybody keeps while the opponents have it to themselves.
   double clearOfOpponentKick() const;
   /// The clock runs and the body is free to do something.

@@ -140,6 +140,12 @@ struct PlayerState {
   bool known = false;
   bool headingKnown = false;
   bool fallen = false;
+  double fallenSince = kNever;  // server time at which that was first known, s
+
+  void lies(bool down, double time) {
+    if (down && !fallen) fallenSince = time;
+    fallen = down;
+  }
 };
 
 /// The last radio message of a team mate.

@@ -46,9 +46,21 @@ void WalkEngine::update(const world::BodyState& body, const WalkParameters& p, c
   footPoses(p, trace_.feet);
   trace_.reach = setLegs(*model_, trace_.feet, targets.angles);
   moveArms(p.posture, targets.angles);
+  straightenToes(targets.angles);
   addRun(run_, gait_.state(), command.run * runShare(p.gait, gait_.state()), *model_, targets.angles);
   targets.stiffness.fill(1.0);
   measureCom(body, p, targets.angles);
+}
+
+// Only the run moves them, by adding to this.
+void WalkEngine::straightenToes(model::JointArray& angles) const {
+  if (!model_->has(model::JointId::LLeg7)) return;
+  angles[index(model::JointId::LLeg7)] = angles[index(model::JointId::RLeg7)] = 0.0;
+}
+
+Pose2 WalkEngine::speed() const {
+  const GaitState& gait = gait_.state();
+  return {gait.step.translation / gait.stepDuration, gait.step.rotation / gait.stepDuration};
 }
 
 void WalkEngine::moveGait(const WalkParameters& p, double cycleTime, const WalkCommand& command,

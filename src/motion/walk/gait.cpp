@@ -126,6 +126,7 @@ void Gait::advancePhase(const GaitInput& input) {
                               : input.leanToLeft;
     beginStep(toLeft >= 0.0 ? Side::Right : Side::Left);
     stepsDone_ = 0;
+    stepsInPlace_ = 0;
   } else if (state_.phase >= 1.0 - 1e-6) {
     ++stepsDone_;
     const bool inPlace =

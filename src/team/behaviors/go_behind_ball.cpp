@@ -14,19 +14,22 @@ namespace nonet::team {
 
 namespace {
 
-// An opponent stands on the straight way from here to this place (robot frame, m).
+// Somebody stands on the straight way from here to this place (robot frame, m).
 bool blocked(const Situation& s, const Vector2& place) {
   const Pose2 X_RF = s.world.self.X_FR.inverse();
   const StraightWay way(Vector2::Zero(), place);
-  for (const world::PlayerState& opponent : s.world.opponents) {
-    if (!opponent.known) continue;
-    const Vector2 p_RO = X_RF * opponent.X_FP.translation;
-    if (way.placeOf(p_RO).ahead > 0.0 && way.distanceTo(p_RO) < s.parameters.ball.circleRoom) return true;
-  }
-  return false;
+  const auto bars = [&](const world::PlayerState& player) {
+    if (!player.known) return false;
+    const Vector2 p_RP = X_RF * player.X_FP.translation;
+    return way.placeOf(p_RP).ahead > 0.0 && way.distanceTo(p_RP) < s.parameters.ball.circleRoom;
+  };
+  const auto& mates = s.world.teammates;
+  const auto self = mates.begin() + s.world.game.unum;
+  return std::any_of(s.world.opponents.begin(), s.world.opponents.end(), bars) ||
+         std::any_of(mates.begin(), self, bars) || std::any_of(self + 1, mates.end(), bars);
 }
 
-// 1: with the ball on the right hand; -1: on the left. On the side where the robot is, unless an opponent
+// 1: with the ball on the right hand; -1: on the left. On the side where the robot is, unless somebody
 // stands in that way and the other one is free, and hardly longer.
 double sideAround(const Situation& s, const BallPlay& play, const Vector2& behind) {
   const BallHandlingParameters& p = s.parameters.ball;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <variant>
 
 #include "nonet/team/behaviors.h"
@@ -10,8 +11,12 @@ std::optional<Action> waitAtBall(const Situation& s) {
   Caution caution;
   caution.robots = s.parameters.avoidDistance;
   caution.ball = s.parameters.ball.waitRoom;
-  const Pose2 place = s.play->placeBehind(s.parameters.ball.waitBehind);
-  return Action(walkTo(s.world, s.parameters.navigation, place, caution), "for the receiver");
+  const bool notPut = ballNotPut(s.world);
+  const double nearest = notPut ? kUntilPut : 0.0;
+  caution.ball = std::max(caution.ball, nearest);
+  const Pose2 place = s.play->placeBehind(std::max(s.parameters.ball.waitBehind, nearest));
+  return Action(walkTo(s.world, s.parameters.navigation, place, caution),
+                notPut ? "for the referee" : "for the receiver");
 }
 
 std::optional<Action> goToBall(const Situation& s) {

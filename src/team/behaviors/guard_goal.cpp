@@ -17,7 +17,8 @@ std::optional<Action> guardGoal(const Situation& s) {
   const Vector2 goal = s.world.field.ownGoal();
   const double own = (s.world.self.X_FR.translation - goal).norm();
   if ((s.ball() - goal).norm() < own) caution.wayToBall = p.room;
-  const Pose2 place = guardPlace(s.ball(), s.world.field, p);
+  const double clear = world::isOpponentSetPiece(s.phase()) ? s.clearOfOpponentKick() : 0.0;
+  const Pose2 place = guardPlace(s.ball(), s.world.field, p, clear);
   const Pose2 pose(place.translation, headingTo(s.world, s.ball()));
   return Action(walkTo(s.world, s.parameters.navigation, pose, caution), "angle");
 }

@@ -9,11 +9,14 @@ namespace nonet::team {
 
 namespace {
 
-// The goalie, the nearer back and the one on the ball are the three who may be in the own penalty area. While
-// roles change hands the back waits for its predecessor to leave.
+// The goalie, the nearer back and the one on the ball are the three who may be in the own penalty area: the
+// place of the latter is kept for it. While roles change hands the back waits for its predecessor to leave.
 bool mayEnterOwnArea(const Situation& s) {
   if (s.role == Role::Goalie || s.role == Role::OnBall) return true;
-  return s.role == Role::BackLeft && matesInOwnArea(s.world) <= kMostInOwnArea - 1;
+  const world::PlayerState& onBall = s.world.teammates[static_cast<std::size_t>(s.onBall)];
+  const bool inside = s.onBall != 0 && onBall.known && inOwnArea(s.world.field, onBall.X_FP.translation);
+  const int others = matesInOwnArea(s.world) - (inside ? 1 : 0);
+  return s.role == Role::BackLeft && others <= kMostInOwnArea - 2;
 }
 
 }  // namespace

@@ -255,5 +255,23 @@ TEST(Gait, StandsWhenCalm) {
   EXPECT_LT(cyclesToStand(false), 1000);
 }
 
+// Pushed out of its stand it steps until both feet have come home, however it came to that stand.
+TEST(Gait, AStandingRobotThatIsPushedMakesSeveralSteps) {
+  GaitWalker walker;
+  walker.run(Pose2(0.1, 0.0, 0.0), 50);
+  GaitInput input;
+  input.cycleTime = kCycleTime;
+  input.calm = true;
+  for (int i = 0; i < 200; ++i) walker.step(input);
+  ASSERT_TRUE(walker.gait.state().standing);
+  input.leans = true;
+  input.leanToLeft = 0.3;
+  walker.step(input);
+  input.leans = false;
+  int cycles = 1;
+  for (; !walker.gait.state().standing && cycles < 1000; ++cycles) walker.step(input);
+  EXPECT_GT(cycles * kCycleTime, 2.5 * walker.gait.state().stepDuration);
+}
+
 }  // namespace
 }  // namespace nonet::motion

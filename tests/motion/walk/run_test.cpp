@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "nonet/math/angle.h"
+#include "nonet/motion/walk/engine.h"
 
 namespace nonet::motion {
 namespace {
@@ -78,6 +79,24 @@ TEST(Run, ShareFollowsTheStep) {
   gait.step.translation.x() = 0.1;
   gait.standing = true;
   EXPECT_EQ(runShare(p, gait), 0.0);
+}
+
+// What the run adds to the toes does not pile up.
+TEST(Run, LeavesTheToesWhereTheyAreWhenItIsOver) {
+  const model::RobotModel& toed = model::robotModel(4);
+  RunParameters p;
+  p.toe.mean = -0.006;
+  WalkEngine engine(toed, p);
+  world::BodyState body;
+  body.cycleTime = kCycleTime;
+  JointTargets targets;
+  for (int i = 0; i < 250; ++i)
+    engine.update(body, WalkParameters{}, {.speed = Pose2(0.5, 0.0, 0.0), .walk = true, .run = 1.0}, targets);
+  EXPECT_LT(angleOf(targets.angles, JointId::LLeg7), -1e-3);
+  EXPECT_GE(angleOf(targets.angles, JointId::LLeg7), p.toe.mean);
+  engine.update(body, WalkParameters{}, {.speed = Pose2(0.5, 0.0, 0.0), .walk = true}, targets);
+  EXPECT_EQ(angleOf(targets.angles, JointId::LLeg7), 0.0);
+  EXPECT_EQ(angleOf(targets.angles, JointId::RLeg7), 0.0);
 }
 
 }  // namespace

@@ -41,6 +41,8 @@ class WalkEngine {
   const GaitState& gait() const { return gait_.state(); }
   const WalkMeasurement& measurement() const { return measurement_; }
   const WalkTrace& trace() const { return trace_; }
+  /// Commanded, of the walk frame: m/s, rad/s.
+  Pose2 speed() const;
   /// Commanded change of the walk frame in the last cycle.
   const Pose2& odometryStep() const { return gait_.odometryStep(); }
 
@@ -49,6 +51,7 @@ class WalkEngine {
                 const Tilt& lastTilt);
   void footPoses(const WalkParameters& parameters, FootPoses& feet) const;
   void moveArms(const WalkPostureParameters& parameters, model::JointArray& angles) const;
+  void straightenToes(model::JointArray& angles) const;
   void measureCom(const world::BodyState& body, const WalkParameters& parameters,
                   const model::JointArray& commanded);
 
