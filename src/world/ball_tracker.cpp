@@ -23,8 +23,11 @@ constexpr double kUnseenGrowth = 0.3;  // m/s
 constexpr double kHeldSigma = 0.01;    // m, of where the referee holds it
 constexpr double kPutSigma = 0.2;      // m, of where it crossed the touch line
 constexpr double kGrace = 0.3;         // s without a sighting before the growth begins
-constexpr double kKnownSigma = 1.2;    // m
-constexpr double kKnownAge = 8.0;      // s
+constexpr double kBounced = 0.9;     // share of the speed that no flight takes in a cycle, but a bounce does
+constexpr double kKickGone = 0.5;    // s since when it may have been kicked, at most
+constexpr double kFits = 2.0;        // squared sigmas of a sighting that shows no kick
+constexpr double kKnownSigma = 1.2;  // m
+constexpr double kKnownAge = 8.0;    // s
 
 }  // namespace
 
@@ -42,7 +45,12 @@ void BallTracker::predict(double dt) {
   if (!started_) return;
   BallMotion ball = motion();
   const bool flying = isFlying(ball);
+  const bool surelyFalls = -lift_ > 2.0 * std::sqrt(heightCovariance_(1, 1));
+  const Vector2 before = ball.v_FB.head<2>();
   moveBall(ball, dt);
+  // A bounce costs speed, but the noise of the height must not make one.
+  if (flying && !surelyFalls && ball.v_FB.head<2>().norm() < kBounced * before.norm())
+    ball.v_FB.head<2>() = std::exp(-kAirDecay * dt) * before;
   const double speed = ball.v_FB.head<2>().norm();
   setMotion(ball);
   const double decay = flying ? kAirDecay : kRollDecay;
@@ -85,8 +93,10 @@ void BallTracker::see(const protocol::Vision& vision, const SelfState& self, con
   if (!vision.ball || !vision.ball->isFinite()) {
     if (!started_) return;
     const Vector3 p_CB = self.X_FC.inverse() * Vector3(state_(0), state_(1), height_);
-    absences_ = clearlyInView(p_CB, 0.0) ? absences_ + 1 : 0;
-    if (absences_ >= kAbsencesToForget) started_ = false;
+    absences_ = self.localized && clearlyInView(p_CB, 0.0) ? absences_ + 1 : 0;
+    if (absences_ < kAbsencesToForget) return;
+    started_ = false;
+    missedAt_ = time;
     return;
   }
   absences_ = 0;
@@ -150,15 +160,19 @@ void BallTracker::kicked(double within) {
 
 void BallTracker::measure(const Vector3& p_FB, const Matrix3& covariance, double time) {
   const Matrix2 plane = covariance.topLeftCorner<2, 2>();
+  const double fitted = lastFit_;
+  lastFit_ = time;
   if (!started_) {
     start(p_FB, plane);
     return;
   }
   const Vector2 measured = p_FB.head<2>();
-  if (mismatch(measured, plane) > kKickGate) {
-    // Somebody has kicked it since the last sighting, or put it somewhere else.
+  const double misfit = mismatch(measured, plane);
+  if (misfit > kFits && misfit <= kKickGate) lastFit_ = fitted;
+  if (misfit > kKickGate) {
+    // Somebody has kicked it, or put it somewhere else; a soft kick shows after some sightings only.
     lastKick_ = time;
-    kicked(std::clamp(time - lastSeen_, kCycleTime, 0.2));
+    kicked(std::clamp(time - fitted, kCycleTime, kKickGone));
     if (mismatch(measured, plane) > kRestartGate) {
       start(p_FB, plane);
       return;
@@ -178,7 +192,8 @@ BallMotion BallTracker::reported(const Report& report, double age) {
 }
 
 void BallTracker::hear(const Report& report, double time) {
-  // Only what is clearly newer than the own sight helps.
+  // Only what is clearly newer than the own sight helps, and none from before it was missed there.
+  if (!started_ && report.seenAt < missedAt_) return;
   if (report.seenAt < lastSeen_ + kGrace || report.seenAt < lastReported_) return;
   const double age = std::max(0.0, time - report.seenAt);
   const BallMotion ball = reported(report, std::max(0.0, time - report.toldAt));
@@ -189,6 +204,7 @@ void BallTracker::hear(const Report& report, double time) {
   const bool worse = !started_ || covariance_.topLeftCorner<2, 2>().trace() > covariance.trace();
   if (worse || mismatch(ball.p_FB.head<2>(), covariance) > kKickGate) {
     start(ball.p_FB, covariance);
+    lastFit_ = time;
     state_.tail<2>() = ball.v_FB.head<2>();
     lift_ = ball.v_FB.z();
     covariance_.bottomRightCorner<2, 2>() = Matrix2::Identity() * 0.25;
@@ -200,7 +216,7 @@ void BallTracker::hear(const Report& report, double time) {
 void BallTracker::rest(const Vector2& p_FB, double sigma, double time) {
   start({p_FB.x(), p_FB.y(), kBallRestHeight}, Matrix2::Identity() * sigma * sigma);
   covariance_.bottomRightCorner<2, 2>() = Matrix2::Identity() * 1e-2;
-  lastReported_ = time;
+  lastReported_ = lastFit_ = time;
 }
 
 void BallTracker::hold(const Vector2& p_FB, double time) {

@@ -80,12 +80,13 @@ bool BodyTracker::update(const protocol::Percept& percept, BodyState& state) {
 
 void BodyTracker::readJoints(const protocol::Percept& percept, double dt, BodyState& state) {
   for (std::size_t i = 0; i < model::kJointCount; ++i) {
-    if (((percept.jointsPresent >> i) & 1U) == 0) continue;
+    if (((percept.jointsPresent >> i) & 1U) == 0 || !std::isfinite(percept.joints[i])) continue;
     state.jointSpeeds[i] = first_ ? 0.0 : (percept.joints[i] - state.joints[i]) / dt;
     state.joints[i] = percept.joints[i];
   }
-  state.gyro = percept.gyro;
-  state.accelerometer = percept.accelerometer;
+  // The server may send "nan" (server facts 1.5): what was there stays.
+  if (percept.gyro.allFinite()) state.gyro = percept.gyro;
+  if (percept.accelerometer.allFinite()) state.accelerometer = percept.accelerometer;
 }
 
 void BodyTracker::readForces(const protocol::Percept& percept, BodyState& state) {
@@ -103,6 +104,7 @@ void BodyTracker::readForces(const protocol::Percept& percept, BodyState& state)
     Vector3 moment = Vector3::Zero();
     double weight = 0.0;
     const auto add = [&](const protocol::FootForce& part, const Pose3& X_FP) {
+      if (!part.force.allFinite() || !part.center.allFinite()) return;
       const Vector3 inFoot = X_FP.linear() * part.force;
       const double size = std::max(inFoot.norm(), 1e-3);
       force += inFoot;

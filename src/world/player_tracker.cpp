@@ -21,7 +21,12 @@ constexpr double kForgetSigma = 3.0;        // m
 constexpr double kHeadingSigma = 0.35;      // rad, worst heading that is worth telling
 constexpr double kOwnSight = 0.3;           // s by which a mate's sighting must be newer than the own one
 constexpr double kOwnSpeed = 0.6;           // s for which the speed that one saw oneself is believed
+constexpr double kOwnWord = 0.6;            // s for which a mate's own word on lying is believed
 constexpr double kJump = 1.5;               // m, farther than any player walks between two sightings
+constexpr double kAgility = 0.9;            // m/s, what it may have done otherwise than its speed said
+constexpr double kInSight = 0.1;            // s between two sightings of one that is seen in every message
+constexpr double kRun = 2.0;                // m/s, faster than any player
+constexpr double kLimbs = 0.25;             // m by which the middle of what is seen of it may change
 constexpr double kRoom = 0.3;               // m around a player in which its parts are, beside two sigmas
 constexpr double kMiddle = 0.3;             // m, height of a player's middle
 
@@ -119,14 +124,18 @@ PlayerState* PlayerTracker::nearestOpponent(const Sighting& sighting, WorldState
 void PlayerTracker::merge(const Sighting& sighting, double time, PlayerState& player) {
   const double dt = time - player.lastSeen;
   const Vector2 innovation = sighting.p_FP - player.X_FP.translation;
-  const bool jumped = !player.known || dt > 2.0 || innovation.norm() > kJump;
+  // The referee puts players aside, from one sighting to the next.
+  const double walks = kLimbs + kRun * std::max(0.0, dt) + 3.0 * (player.sigma + sighting.sigma);
+  const bool moved = dt < kInSight && innovation.norm() > walks;
+  const bool jumped = !player.known || dt > 2.0 || innovation.norm() > kJump || moved;
   if (jumped) {
     player.X_FP.translation = sighting.p_FP;
     player.v_FP.setZero();
     player.sigma = sighting.sigma;
     player.headingKnown = false;
   } else {
-    const double variance = player.sigma * player.sigma + 1e-4;
+    const double otherwise = kAgility * std::clamp(dt, 0.0, kInSight);
+    const double variance = player.sigma * player.sigma + 1e-4 + otherwise * otherwise;
     const double gain = variance / (variance + sighting.sigma * sighting.sigma);
     player.X_FP.translation += gain * innovation;
     player.sigma = std::sqrt((1.0 - gain) * variance);
@@ -173,8 +182,11 @@ void PlayerTracker::see(const protocol::Vision& vision, const Vector3& offset, W
       const bool own = seen.team == state.game.team;
       if ((pass == 0) != numbered) continue;
       if (own && (seen.unum == state.game.unum || !numbered)) continue;  // the own arms
-      const auto sighting = evaluate(seen, offset, state.self);
+      auto sighting = evaluate(seen, offset, state.self);
       if (!sighting) continue;
+      // Who rises has its head up before it stands, and says itself when it does.
+      if (own && state.time - state.radio[static_cast<std::size_t>(seen.unum)].time < kOwnWord)
+        sighting->fallen.reset();
       PlayerState* player = nullptr;
       if (!numbered) {
         player = nearestOpponent(*sighting, state);

@@ -61,6 +61,8 @@ struct WorldModel::Stages {
 
   void fillSelf();
   void followBeam();
+  void changeSides();
+  void repeat(const protocol::Percept& percept);
   void listen(const protocol::Percept& percept);
   void believe(const protocol::SayMessage& message, double time);
   void followOthers(const protocol::Percept& percept);
@@ -121,6 +123,22 @@ void WorldModel::Stages::listen(const protocol::Percept& percept) {
     state.radio[static_cast<std::size_t>(message->unum)] = {percept.time, *message};
     believe(*message, percept.time);
   }
+}
+
+void WorldModel::Stages::changeSides() {
+  ball.mirror();
+  players.mirror(state);
+  state.pass = {};
+  spot.reset();
+}
+
+// A message with the time of the last one: who we are may be new in it, and what others said.
+void WorldModel::Stages::repeat(const protocol::Percept& percept) {
+  const bool fromRight = playsFromRight(state.game);
+  game.update(percept, state.game);
+  if (playsFromRight(state.game) != fromRight) changeSides();
+  listen(percept);
+  ball.fill(state.ball, state.self, state.time);
 }
 
 // What a team mate says of itself, the ball, opponents and what it is going to do.
@@ -205,8 +223,8 @@ const WorldState& WorldModel::update(const protocol::Percept& percept, const std
   if (beam) stages.beams.back() = beam;
   WorldState& state = stages.state;
   if (!stages.body.update(percept, state.body)) {
-    // A server that stands still sends the same time again; who we are may be new in it.
-    if (percept.time == state.time) stages.game.update(percept, state.game);
+    // A server that stands still sends the same time again.
+    if (percept.time == state.time) stages.repeat(percept);
     return state;
   }
   state.time = percept.time;
@@ -224,12 +242,7 @@ const WorldState& WorldModel::update(const protocol::Percept& percept, const std
       stages.game.noticePlace(belief.p_WR.x(), state.time, state.game);
     }
   }
-  if (playsFromRight(state.game) != fromRight) {
-    stages.ball.mirror();
-    stages.players.mirror(state);
-    state.pass = {};
-    stages.spot.reset();
-  }
+  if (playsFromRight(state.game) != fromRight) stages.changeSides();
   stages.fillSelf();
   stages.followOthers(percept);
   return state;

@@ -234,6 +234,7 @@ TEST(BallTracker, SpeaksOfItsErrorHonestly) {
 
 TEST(BallTracker, ForgetsWhatShouldBeInSightAndIsNot) {
   SelfState self;
+  self.localized = true;
   self.X_FC.translation() = Vector3(0, 0, 0.5);
   self.cameraCovariance = Vector3(1e-4, 1e-4, 1e-5).asDiagonal();
   BallTracker tracker;
@@ -253,6 +254,83 @@ TEST(BallTracker, ForgetsWhatShouldBeInSightAndIsNot) {
   }
   tracker.fill(state, self, time);
   EXPECT_FALSE(state.known);
+}
+
+// A mate tells of it, it is not there, and the mate tells the same again.
+TEST(BallTracker, WhatWasMissedIsNotThereThoughItIsToldAgain) {
+  SelfState self;
+  self.localized = true;
+  self.X_FC.translation() = Vector3(0, 0, 0.5);
+  BallTracker tracker;
+  BallState state;
+  tracker.hear({Vector2(3, 0), Vector2(0, 0), 1.0, 1.0, 0.2}, 1.0);
+  for (int i = 1; i < 6; ++i) {
+    tracker.predict(0.06);
+    tracker.see({}, self, Vector3::Zero(), 1.0 + 0.06 * i);
+  }
+  const auto isKnownAfter = [&](double seenAt) {
+    tracker.hear({Vector2(3, 0), Vector2(0, 0), seenAt, 1.4, 0.2}, 1.4);
+    tracker.fill(state, self, 1.4);
+    return state.known;
+  };
+  EXPECT_FALSE(isKnownAfter(1.0));
+  EXPECT_TRUE(isKnownAfter(1.4));
+}
+
+TEST(BallTracker, WhoDoesNotKnowWhereItStandsMissesNothing) {
+  SelfState self;
+  self.X_FC.translation() = Vector3(0, 0, 0.5);
+  BallTracker tracker;
+  BallState state;
+  tracker.hear({Vector2(3, 0), Vector2(0, 0), 1.0, 1.0, 0.2}, 1.0);
+  for (int i = 1; i < 10; ++i) {
+    tracker.predict(0.06);
+    tracker.see({}, self, Vector3::Zero(), 1.0 + 0.06 * i);
+  }
+  tracker.fill(state, self, 1.6);
+  EXPECT_TRUE(state.known);
+}
+
+// From afar a soft push shows after several sightings only: that it came at the last one would make it fast.
+TEST(BallTracker, ASoftPushIsNotBelievedToBeAKick) {
+  for (const double away : {1.7, 3.4}) {
+    for (const char* name : {"ball_roll_1"}) {
+      const Trace& ball = trace(name);
+      const std::size_t start = firstMove(ball);
+      const double speed = motionAt(ball, start + 2).v_FB.norm();
+      std::vector<double> most;
+      for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        double fastest = 0.0;
+        follow(
+            ball, start - 30, seed,
+            [&](std::size_t i, const BallState& state) {
+              if (i >= start && i < start + 60) fastest = std::max(fastest, state.v_FB.head<2>().norm());
+            },
+            away);
+        most.push_back(fastest);
+      }
+      std::sort(most.begin(), most.end());
+      EXPECT_LT(most[20], 1.6 * speed) << name << " from " << 2.9 * away << " m";
+    }
+  }
+}
+
+// What noise takes for a bounce takes no speed.
+TEST(BallTracker, NoiseOfTheHeightDoesNotBrakeARollingBall) {
+  const Trace& ball = trace("ball_roll_6");
+  const std::size_t start = firstMove(ball);
+  double sum = 0.0;
+  constexpr int kSeeds = 60;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    follow(
+        ball, start - 30, seed,
+        [&](std::size_t i, const BallState& state) {
+          if (i != start + 12) return;
+          sum += std::pow(state.v_FB.head<2>().norm() - motionAt(ball, i).v_FB.head<2>().norm(), 2);
+        },
+        3.0);
+  }
+  EXPECT_LT(std::sqrt(sum / kSeeds), 0.12);
 }
 
 // Oracle: the law of the ball itself, stepped from the kick on.

@@ -216,5 +216,26 @@ TEST(BodyTracker, CombinesFootAndToe) {
   EXPECT_NEAR(state.torsoHeight, 0.385, 2e-3);
 }
 
+// The server may send "nan" (server facts 1.5).
+TEST(BodyTracker, WhatIsNoNumberLeavesTheStateAsItWas) {
+  const double nan = std::nan("");
+  BodyTracker tracker(model::robotModel(0), {});
+  BodyState state;
+  for (int i = 1; i < 50; ++i) tracker.update(standing(1.0 + i * kCycleTime), state);
+  protocol::Percept broken = standing(2.0);
+  broken.joints.fill(nan);
+  broken.gyro.setConstant(nan);
+  broken.accelerometer.setConstant(nan);
+  for (auto& force : broken.forces)
+    if (force) force->force.setConstant(nan);
+  tracker.update(broken, state);
+  for (int i = 1; i < 20; ++i) tracker.update(standing(2.0 + i * kCycleTime), state);
+  EXPECT_TRUE(state.R_GR.allFinite());
+  EXPECT_TRUE(state.v_GR.allFinite());
+  EXPECT_TRUE(std::isfinite(state.torsoHeight));
+  for (const double joint : state.joints) EXPECT_TRUE(std::isfinite(joint));
+  EXPECT_EQ(state.posture, Posture::Upright);
+}
+
 }  // namespace
 }  // namespace nonet::world

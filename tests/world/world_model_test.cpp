@@ -585,5 +585,15 @@ TEST(WorldModel, ForeignAgentsBeamsDoNotMislead) {
   EXPECT_LT(worst, 0.2);
 }
 
+// A server that stands still sends the same time again, with what was said meanwhile.
+TEST(WorldModel, HearsInAMessageWithTheTimeOfTheLastOne) {
+  Listener listener;
+  protocol::Percept percept = listener.scene.next();
+  listener.world.update(percept);
+  EXPECT_FALSE(listener.world.state().teammates[8].known);
+  percept.vision.reset();
+  EXPECT_TRUE(listener.world.update(hearing(percept, listener.message)).teammates[8].known);
+}
+
 }  // namespace
 }  // namespace nonet::world

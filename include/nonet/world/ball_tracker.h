@@ -61,8 +61,10 @@ class BallTracker {
   double lastSeen_ = kNever;
   double lastReported_ = kNever;
   double lastKick_ = kNever;
-  double sinceSeen_ = 0.0;  // s
-  int absences_ = 0;        // vision frames in a row in which it should have been seen
+  double lastFit_ = kNever;   // of a sighting of a ball that nobody had kicked
+  double missedAt_ = kNever;  // it should have been in sight and was not
+  double sinceSeen_ = 0.0;    // s
+  int absences_ = 0;          // vision frames in a row in which it should have been seen
 };
 
 }  // namespace nonet::world
