@@ -30,6 +30,7 @@ bool stepEnds(const WalkEngine& walk, Side foot, const KickParameters& p) {
   const GaitState& gait = walk.gait();
   if (gait.standing || gait.stance != foot || gait.phase < 1.0 - 1e-6) return false;
   if (leansTooFar(walk.measurement().tilt)) return false;
+  if (gait.step.translation.x() < p.leastPace * gait.stepDuration) return false;
   return gait.step.translation.norm() < p.strideSpeed * gait.stepDuration &&
          std::abs(gait.step.rotation) < p.strideTurn * gait.stepDuration;
 }

@@ -148,12 +148,13 @@ TEST(KickChoice, ExactKicksAreForThoseWhoAskForOne) {
 }
 
 // On the spot, up to the end of a step that stands on this foot.
-void stepUntilItStandsOn(Side foot, WalkEngine& walk, double pitch = 0.0) {
+void stepUntilItStandsOn(Side foot, WalkEngine& walk, double pitch = 0.0, double speed = 0.0) {
   world::BodyState body;
   body.cycleTime = kCycleTime;
   body.pitch = pitch;
   WalkCommand command;
   command.walk = true;
+  command.speed = Pose2(speed, 0.0, 0.0);
   JointTargets targets;
   for (int i = 0;
        i < 200 && (i < 20 || walk.standing() || walk.gait().stance != foot || walk.gait().phase < 1.0 - 1e-6);
@@ -375,6 +376,21 @@ TEST(KickChoice, ALostMessageDoesNotChangeWhatAKickIsTold) {
   };
   EXPECT_GT(pace(kCycleTime), 0.03);
   EXPECT_NEAR(pace(2.0 * kCycleTime), pace(kCycleTime), 1e-6);
+}
+
+// Out of steps back a swing is weak.
+TEST(KickChoice, NoKickBeginsOutOfStepsBack) {
+  Kicks kicks(
+      "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } }");
+  KickTo kick;
+  kick.ball = {0.2, 0.05};
+  kick.target = {10.0, 0.05};
+  for (const double speed : {-0.1, 0.1}) {
+    KickControl control(kicks.catalogue, KickParameters{});
+    kicks.walk.reset();
+    stepUntilItStandsOn(Side::Left, kicks.walk, 0.0, speed);
+    EXPECT_EQ(control.update(kick, kicks.walk, 0.0).begin, speed > 0.0) << speed;
+  }
 }
 
 }  // namespace

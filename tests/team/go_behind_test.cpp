@@ -32,5 +32,24 @@ TEST(GoBehindBall, LeadsBehindWhereTheBallWillBe) {
   EXPECT_EQ(ledTo({0.0, 0.9 * p.circleRolling}, 1.0), resting) << "as good as lying";
 }
 
+// Mate or opponent: past it, and not through the ball.
+TEST(GoBehind, LeadsPastWhoStandsInTheWay) {
+  Scene scene;
+  scene.putBall({0.85, 0.0});
+  const auto next = [&] {
+    Situation s = scene.situation(Role::OnBall);
+    s.play = playTowards(s, {15.0, 0.0}, KickUse::Never);
+    return std::get<motion::WalkTo>(goBehindBall(s).value().motion).target.translation;
+  };
+  EXPECT_LT(std::abs(next().y()), 0.05);
+  for (world::PlayerState* player : {&scene.world.teammates[7], &scene.world.opponents[7]}) {
+    Scene::put(*player, Pose2(0.4, 0.05, 0.0));
+    const Vector2 way = next();
+    EXPECT_LT(way.y(), -0.1);
+    EXPECT_GT((player->X_FP.translation - way).norm(), 0.28);
+    player->known = false;
+  }
+}
+
 }  // namespace
 }  // namespace nonet::team

@@ -382,5 +382,14 @@ TEST(BallTarget, AimsAtTheOpenPartOfTheGoal) {
   }
 }
 
+TEST(PlayBall, DoesNotKickIntoAMateAtTheBall) {
+  Scene scene;
+  scene.putBall({0.5, 0.0});
+  EXPECT_TRUE(std::holds_alternative<motion::KickTo>(scene.handleBall({15.0, 0.0}, KickUse::IfFree)));
+  Scene::put(scene.world.teammates[7], Pose2(0.55, 0.1, 0.0));
+  scene.world.teammates[7].fallen = true;
+  EXPECT_FALSE(std::holds_alternative<motion::KickTo>(scene.handleBall({15.0, 0.0}, KickUse::IfFree)));
+}
+
 }  // namespace
 }  // namespace nonet::team

@@ -24,6 +24,7 @@ struct KickParameters {
   double mostSpeed = 0.8;
   double strideSpeed = 0.45;
   double strideTurn = 0.8;
+  double leastPace = -0.02;
   double quietRate = 0.35;
   double quietTime = 0.1;
 
@@ -110,6 +111,12 @@ struct KickParameters {
           self.strideSpeed);
     visit({"strideTurn", Unit::RadianPerSecond, {0, 10}, fixed, "and turn slower than this"},
           self.strideTurn);
+    visit({"leastPace",
+           Unit::MetrePerSecond,
+           {-1, 1},
+           fixed,
+           "and lead ahead as they say by at least this: a swing out of steps back is weak"},
+          self.leastPace);
     visit({"quietRate",
            Unit::RadianPerSecond,
            {0, 10},

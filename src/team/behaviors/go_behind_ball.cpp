@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/straight_way.h"
 #include "nonet/team/behaviors.h"
+#include "nonet/team/detour.h"
 #include "nonet/team/way_behind.h"
 
 #include "team/behaviors/go_behind.h"
@@ -68,6 +70,26 @@ BallCurve curveAround(const Situation& s, const BallPlay& play, double turned) {
   return {behind, std::max(p.circleRadius, behind), p.circleOpen};
 }
 
+// Past who stands in the straight way to this place, if there is room beside the ball (both robot frame, m).
+Vector2 pastOthers(const Situation& s, const Pose2& X_RThen, const Vector2& ball, const Vector2& place) {
+  constexpr double kNear = 1.5;  // m
+  const Pose2 X_ThenF = (s.world.self.X_FR * X_RThen).inverse();
+  std::array<Disc, 2 * world::kTeamSize + 1> discs{};
+  std::size_t count = 0;
+  const auto add = [&](const world::PlayerState& player) {
+    const Vector2 p = X_ThenF * player.X_FP.translation;
+    if (player.known && p.norm() < kNear) discs[count++] = {p, s.parameters.ball.circleRoom};
+  };
+  for (int unum = 1; unum <= world::kTeamSize; ++unum) {
+    const auto i = static_cast<std::size_t>(unum);
+    if (unum != s.world.game.unum) add(s.world.teammates[i]);
+    add(s.world.opponents[i]);
+  }
+  discs[count++] = {ball, s.parameters.ball.behindBall};
+  const Detour way = detour(Vector2::Zero(), place, {discs.data(), count});
+  return way.straight || way.blocked ? place : way.next;
+}
+
 }  // namespace
 
 Action goBehind(const Situation& s, const BallPlay& play) {
@@ -79,7 +101,7 @@ Action goBehind(const Situation& s, const BallPlay& play) {
   const BallCurve curve = curveAround(s, play, direction);
   const double side = sideAround(s, play, play.ball - curve.behind * play.along);
   const WayBehind way = wayBehind(X_RBall.inverse().translation, curve, side);
-  const Vector2 next = X_RBall * way.next;
+  const Vector2 next = pastOthers(s, X_RThen, ball, X_RBall * way.next);
   const double turn = p.turnAlong * std::max(way.length - p.turnLast, 0.0);
   motion::WalkTo walk{Pose2(next, headingOnTheWay(next, direction, turn)), false};
   walk.turnAtOnce = true;

@@ -14,6 +14,8 @@ namespace nonet::team {
 
 namespace {
 
+constexpr double kMateAtBall = 0.2;  // m
+
 // Where the ball's way to its target meets the goal line, own field frame.
 Vector2 goalCrossing(const Situation& s, const BallPlay& play) {
   const Vector2 way = play.p_FTarget - s.ball();
@@ -51,12 +53,22 @@ bool staysOurs(const Situation& s, const BallPlay& play, const Vector2& end) {
   return teammatesTime(s, end) + s.parameters.ball.kickLead < opponentsTime(s, end);
 }
 
-// Any kick at all: it is wanted, the ball lies, and nobody is nearer to it than `room`, or a share of that
-// once the robot is in its place.
+// One of ours lies or stands right at the ball.
+bool mateAtBall(const Situation& s) {
+  const auto& mates = s.world.teammates;
+  const auto at = [&](const world::PlayerState& mate) {
+    const bool self = &mate == &mates[static_cast<std::size_t>(s.world.game.unum)];
+    return mate.known && !self && (mate.X_FP.translation - s.ball()).norm() < kMateAtBall;
+  };
+  return std::any_of(mates.begin(), mates.end(), at);
+}
+
+// Any kick at all: it is wanted, the ball lies, no mate is at it and nobody nearer to it than `room`, or a
+// share of that once the robot is in its place.
 bool canKick(const Situation& s, bool there, double room) {
   const BallHandlingParameters& p = s.parameters.ball;
   return p.kick && s.play->use != KickUse::Never && s.world.ball.v_FB.head<2>().norm() <= p.kickRolling &&
-         s.nearestOpponent >= (there ? p.kickPress : 1.0) * room;
+         s.nearestOpponent >= (there ? p.kickPress : 1.0) * room && !mateAtBall(s);
 }
 
 bool mayKick(const Situation& s, const BallPlay& play, bool there) {
