@@ -133,6 +133,19 @@ double laneWidth(const world::WorldState& world, const Vector2& from, const Vect
   return width;
 }
 
+bool mateBars(const world::WorldState& world, const Vector2& from, const Vector2& to) {
+  constexpr double kAhead = 1.5;  // m
+  constexpr double kAside = 0.25;
+  const StraightWay way(from, to);
+  for (int unum = 1; unum <= world::kTeamSize; ++unum) {
+    const world::PlayerState& mate = world.teammates[static_cast<std::size_t>(unum)];
+    if (!mate.known || unum == world.game.unum) continue;
+    const auto [ahead, aside] = way.placeOf(mate.X_FP.translation);
+    if (ahead > 0.0 && ahead < std::min(kAhead, way.length()) && std::abs(aside) < kAside) return true;
+  }
+  return false;
+}
+
 Vector2 ballTarget(const world::WorldState& world, const BallTargetParameters& p,
                    const std::optional<double>& present, Candidates* record) {
   const Vector2 ball = world.ball.p_FB.head<2>();

@@ -34,6 +34,7 @@ std::optional<Shot> bestShot(const world::WorldState& world, std::span<const mot
   std::pair<bool, double> most{false, 0.0};
   for (int i = -kPlacesAside; i <= kPlacesAside; ++i) {
     const Vector2 place(goal.x(), side * i / kPlacesAside);
+    if (mateBars(world, ball, place)) continue;
     const double share = isSameKick(present, directionOf(place - ball)) ? p.keep : 1.0;
     for (const motion::KickOption& kick : kicks) {
       if (kick.foot != model::Side::Left || !kick.head.isStraight() || !kick.head.hasRoom(nearest)) continue;

@@ -391,5 +391,20 @@ TEST(PlayBall, DoesNotKickIntoAMateAtTheBall) {
   EXPECT_FALSE(std::holds_alternative<motion::KickTo>(scene.handleBall({15.0, 0.0}, KickUse::IfFree)));
 }
 
+TEST(PlayBall, DoesNotShootAtAMateRightInFront) {
+  Scene scene;
+  scene.stand(Pose2(9.5, 0.0, 0.0));
+  scene.putBall({10.0, 0.0});
+  const auto shoots = [&] { return shoot(scene.situation(Role::OnBall)).has_value(); };
+  EXPECT_TRUE(shoots());
+  Scene::put(scene.world.teammates[7], Pose2(11.0, 0.0, 0.0));
+  EXPECT_TRUE(mateBars(scene.world, {10.0, 0.0}, {15.0, 0.0}));
+  EXPECT_FALSE(mateBars(scene.world, {10.0, 0.0}, {15.0, 2.0}));
+  EXPECT_FALSE(mateBars(scene.world, {9.4, 0.0}, {15.0, 0.0})) << "it is far enough";
+  EXPECT_FALSE(shoots());
+  Scene::put(scene.world.teammates[7], Pose2(11.0, 0.6, 0.0));
+  EXPECT_TRUE(shoots());
+}
+
 }  // namespace
 }  // namespace nonet::team

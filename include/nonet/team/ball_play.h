@@ -75,6 +75,9 @@ double barred(const world::WorldState& world, const BallTargetParameters& parame
 double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest,
                  const motion::KickHead& kick = {});
 
+/// One of ours is in the way so near to the ball that no kick passes it.
+bool mateBars(const world::WorldState& world, const Vector2& from, const Vector2& to);
+
 /// The place in the goal, and the kick for it, that most likely ends there. Nothing if none may: too far, too
 /// near for the ball to be low again, somebody in the way. `present`: where the shot under way goes, rad, own
 /// field frame; thereabouts less is asked for.

@@ -80,7 +80,7 @@ bool mayKick(const Situation& s, const BallPlay& play, bool there) {
   if (!canKick(s, there, room)) return false;
   if (use == KickUse::Clear) return true;
   const Vector2 restsAt = kickEnd(s, play);
-  if (!endsInField(s, play, restsAt)) return false;
+  if (!endsInField(s, play, restsAt) || mateBars(s.world, s.ball(), restsAt)) return false;
   if (there) return true;
   if (!staysOurs(s, play, restsAt)) return false;
   const Vector2 from = s.ball();
