@@ -109,7 +109,7 @@ struct Search {
 Detour detour(const Vector2& from, const Vector2& to, std::span<const Disc> discs, const Facing& facing,
               double squeezeFor) {
   const Discs whole = aroundEnds(from, to, discs, 1.0);
-  const Detour way = Search{whole.all(), from, facing}.find(from, to, kDepth);
+  Detour way = Search{whole.all(), from, facing}.find(from, to, kDepth);
   if (!way.blocked && (way.straight || std::isinf(squeezeFor))) return way;
   const Discs narrow = aroundEnds(from, to, discs, kNarrow);
   Detour squeezed = Search{narrow.all(), from, facing}.find(from, to, kDepth);
