@@ -160,19 +160,20 @@ void BallTracker::kicked(double within) {
 
 void BallTracker::measure(const Vector3& p_FB, const Matrix3& covariance, double time) {
   const Matrix2 plane = covariance.topLeftCorner<2, 2>();
-  const double fitted = lastFit_;
-  lastFit_ = time;
   if (!started_) {
     start(p_FB, plane);
+    lastFit_ = time;
     return;
   }
   const Vector2 measured = p_FB.head<2>();
   const double misfit = mismatch(measured, plane);
-  if (misfit > kFits && misfit <= kKickGate) lastFit_ = fitted;
-  if (misfit > kKickGate) {
+  const double unkicked = lastFit_;
+  const bool kick = misfit > kKickGate;
+  if (kick || misfit <= kFits) lastFit_ = time;
+  if (kick) {
     // Somebody has kicked it, or put it somewhere else; a soft kick shows after some sightings only.
     lastKick_ = time;
-    kicked(std::clamp(time - fitted, kCycleTime, kKickGone));
+    kicked(std::clamp(time - unkicked, kCycleTime, kKickGone));
     if (mismatch(measured, plane) > kRestartGate) {
       start(p_FB, plane);
       return;

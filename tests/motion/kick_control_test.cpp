@@ -147,6 +147,18 @@ TEST(KickChoice, ExactKicksAreForThoseWhoAskForOne) {
   EXPECT_EQ(control.update(kick, kicks.walk, 0.0).option, nullptr);
 }
 
+// Ten metres straight ahead of a ball that lies before the left foot.
+KickTo straightKick() {
+  KickTo kick;
+  kick.ball = {0.2, 0.05};
+  kick.target = {10.0, 0.05};
+  return kick;
+}
+
+// For such a ball, wherever else about there it seems to lie.
+constexpr const char* kOutOfTheWalk =
+    "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } }";
+
 // On the spot, up to the end of a step that stands on this foot.
 void stepUntilItStandsOn(Side foot, WalkEngine& walk, double pitch = 0.0, double speed = 0.0) {
   world::BodyState body;
@@ -165,9 +177,7 @@ void stepUntilItStandsOn(Side foot, WalkEngine& walk, double pitch = 0.0, double
 TEST(KickChoice, AKickOutOfTheWalkBeginsWhereAStepEndsAndNotFromAStand) {
   Kicks kicks(
       "skill kick_k { kick { ball (0.2m, 5cm) within (3cm, 3cm) distance 3m..14m contact 0.3s from walk } }");
-  KickTo kick;
-  kick.ball = {0.2, 0.05};
-  kick.target = {10.0, 0.05};
+  const KickTo kick = straightKick();
   KickControl control(kicks.catalogue, KickParameters{});
   EXPECT_TRUE(control.update(kick, kicks.walk, 1.0).inPlace);
   EXPECT_FALSE(control.update(kick, kicks.walk, 1.0).begin) << "stands";
@@ -343,11 +353,8 @@ TEST(KickControl, ComesToABallBehindWithoutTouchingIt) {
 
 // Slow because it was hit: its torso sees the ball elsewhere than its feet have it.
 TEST(KickChoice, NoKickBeginsWhileTheRobotStumbles) {
-  Kicks kicks(
-      "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } }");
-  KickTo kick;
-  kick.ball = {0.2, 0.05};
-  kick.target = {10.0, 0.05};
+  Kicks kicks(kOutOfTheWalk);
+  const KickTo kick = straightKick();
   for (const double pitch : {0.0, 0.3}) {
     KickControl control(kicks.catalogue, KickParameters{});
     stepUntilItStandsOn(Side::Left, kicks.walk, pitch);
@@ -358,12 +365,7 @@ TEST(KickChoice, NoKickBeginsWhileTheRobotStumbles) {
 // A cycle that took twice as long does not make the robot twice as fast.
 TEST(KickChoice, ALostMessageDoesNotChangeWhatAKickIsTold) {
   const auto pace = [](double cycleTime) {
-    Kicks kicks(
-        "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } "
-        "}");
-    KickTo kick;
-    kick.ball = {0.2, 0.05};
-    kick.target = {10.0, 0.05};
+    Kicks kicks(kOutOfTheWalk);
     world::BodyState body;
     JointTargets targets;
     body.cycleTime = kCycleTime;
@@ -372,7 +374,7 @@ TEST(KickChoice, ALostMessageDoesNotChangeWhatAKickIsTold) {
     body.cycleTime = cycleTime;
     kicks.walk.update(body, WalkParameters{}, {.speed = Pose2(0.1, 0.0, 0.0), .walk = true}, targets);
     KickControl control(kicks.catalogue, KickParameters{});
-    return control.update(kick, kicks.walk, 0.0).aim.pace.x();
+    return control.update(straightKick(), kicks.walk, 0.0).aim.pace.x();
   };
   EXPECT_GT(pace(kCycleTime), 0.03);
   EXPECT_NEAR(pace(2.0 * kCycleTime), pace(kCycleTime), 1e-6);
@@ -380,11 +382,8 @@ TEST(KickChoice, ALostMessageDoesNotChangeWhatAKickIsTold) {
 
 // Out of steps back a swing is weak.
 TEST(KickChoice, NoKickBeginsOutOfStepsBack) {
-  Kicks kicks(
-      "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } }");
-  KickTo kick;
-  kick.ball = {0.2, 0.05};
-  kick.target = {10.0, 0.05};
+  Kicks kicks(kOutOfTheWalk);
+  const KickTo kick = straightKick();
   for (const double speed : {-0.1, 0.1}) {
     KickControl control(kicks.catalogue, KickParameters{});
     kicks.walk.reset();

@@ -64,6 +64,11 @@ class Team {
   }
   Vector2& place(int unum) { return places_[static_cast<std::size_t>(unum - kFirst)]; }
 
+  // Everybody far from the ball.
+  void goHome() {
+    for (int unum = kFirst; unum <= kLast; ++unum) place(unum) = Vector2(-10.0, unum);
+  }
+
   Role roleOf(int unum) const { return voting_[static_cast<std::size_t>(unum - kFirst)]->role(); }
 
   Vector2 ball = Vector2(1.0, 1.0);
@@ -116,7 +121,7 @@ TEST(RoleVoting, WithFixedRolesTheNearestTakesTheBallAndTheOthersStay) {
   Team team(5);
   team.variant().fixedRoles = true;
   for (const int nearest : {3, 8}) {
-    for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+    team.goHome();
     team.place(nearest) = team.ball + Vector2(-0.6, 0.0);
     team.run(3.0);
     EXPECT_EQ(team.agreedOnBall(), nearest);
@@ -136,7 +141,7 @@ TEST(RoleVoting, WithoutFormationEverybodyIsOnTheBall) {
 
 TEST(RoleVoting, KeepsThePlayerOnTheBallAgainstSmallDifferences) {
   Team team(3);
-  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.goHome();
   team.place(4) = team.ball + Vector2(-1.0, 0.3);
   team.place(5) = team.ball + Vector2(-1.1, -0.3);
   team.run(1.5);
@@ -159,7 +164,7 @@ TEST(RoleVoting, KeepsThePlayerOnTheBallAgainstSmallDifferences) {
 TEST(RoleVoting, BeforeAKickOffWhoComesInFirstKeepsNothing) {
   Team team(3);
   team.phase = world::Phase::BeforeKickOff;
-  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.goHome();
   team.place(6) = team.ball + Vector2(-1.3, 0.0);
   team.run(1.5);
   EXPECT_EQ(team.agreedOnBall(), 6);
@@ -212,7 +217,7 @@ TEST(RoleVoting, WithoutAViewOfTheFieldThereIsNoVote) {
 // The one on the ball falls beside it; the next one is so far that it would not get it otherwise.
 TEST(RoleVoting, WhoFallsLosesTheBallAtOnce) {
   Team team(3);
-  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.goHome();
   team.place(4) = team.ball + Vector2(-0.3, 0.0);
   team.place(5) = team.ball + Vector2(-1.4, -0.3);
   team.run(1.5);
@@ -226,7 +231,7 @@ TEST(RoleVoting, WhoFallsLosesTheBallAtOnce) {
 
 TEST(RoleVoting, WhoFallsKeepsTheBallIfNobodyIsNear) {
   Team team(3);
-  for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+  team.goHome();
   team.place(4) = team.ball + Vector2(-0.3, 0.0);
   team.run(1.5);
   team.lying = 4;
@@ -238,7 +243,7 @@ TEST(RoleVoting, WhoFallsKeepsTheBallIfNobodyIsNear) {
 TEST(RoleVoting, WhoIsFarFromTheBallIsRelievedSooner) {
   const auto keeps = [](double far, double sooner) {
     Team team(3);
-    for (int unum = kFirst; unum <= kLast; ++unum) team.place(unum) = Vector2(-10.0, unum);
+    team.goHome();
     team.place(4) = team.ball + Vector2(-far, 0.0);
     team.run(1.5);
     EXPECT_EQ(team.agreedOnBall(), 4);
