@@ -1,7 +1,7 @@
 # For the scripts that start and stop agents; not run by itself. Expects $0, gives:
 #   root      the folder with scripts/, params/ and skills/
 #   logs      where agents write what they say, and where their process ids are kept (NONET_LOGS)
-#   findBinary, parseArguments, launch, awaitAgents, isOurs
+#   findBinary, parseArguments, launch, awaitAgents, isOurs, forgetEnded
 root=$(cd "$(dirname "$0")/.." && pwd)
 script=$(basename "$0" .sh)
 
@@ -98,8 +98,24 @@ launch() {
   pid=$!
   read -r state began <<<"$(statOf "$pid")" || true  # nothing if it has died already
   local entry="$pid ${began:-0} $name"
-  echo "$entry" >>"$pids"
+  { flock 8; echo "$entry" >>"$pids"; } 8>"$pids.lock"
   started+=("$entry")
+}
+
+# Keeps the ids of those who are alive, also of agents that another script has started meanwhile.
+forgetEnded() {
+  {
+    flock 8
+    local pid time name alive=()
+    while read -r pid time name; do
+      isOurs "$pid" "$time" && alive+=("$pid $time $name")
+    done <"$pids"
+    if [ ${#alive[@]} -gt 0 ]; then
+      printf '%s\n' "${alive[@]}" >"$pids"
+    else
+      rm -f "$pids"
+    fi
+  } 8>"$pids.lock"
 }
 
 # Says who died at once, with the last words; fails if anybody did. Waits NONET_WATCH seconds, less if all are dead.

@@ -14,13 +14,11 @@ if [ ! -f "$pids" ]; then
   exit 0
 fi
 
-running=() others=()
+running=()
 while read -r pid time name; do
   isOurs "$pid" "$time" || continue
   if [ -z "$only" ] || [ "${name%_*}" = "$only" ]; then
     kill -TERM "$pid" 2>/dev/null && running+=("$pid $time")
-  else
-    others+=("$pid $time $name")
   fi
 done <"$pids"
 
@@ -37,9 +35,5 @@ for entry in "${running[@]}"; do
   # shellcheck disable=SC2086
   if isOurs $entry; then kill -KILL "${entry%% *}" 2>/dev/null || true; fi
 done
-if [ ${#others[@]} -gt 0 ]; then
-  printf '%s\n' "${others[@]}" >"$pids"
-else
-  rm -f "$pids"
-fi
+forgetEnded
 echo "stopped ${#running[@]} agents${only:+ of team $only}"

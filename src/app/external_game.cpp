@@ -147,6 +147,12 @@ class ExternalGame {
     if (!game.teamRight.empty()) match_.right.name = game.teamRight;
   }
 
+  // On that server's field.
+  lab::MatchStatistics& statistics() {
+    if (!statistics_) statistics_.emplace(link_.frames().field());
+    return *statistics_;
+  }
+
   int playersOf(bool rightTeam) const {
     int count = 0;
     const lab::Frame& frame = link_.frames().frame();
@@ -183,7 +189,7 @@ class ExternalGame {
       follow();
       const lab::Frame& frame = link_.frames().frame();
       begun = begun || frame.mode != PlayMode::BeforeKickOff;
-      if (begun) statistics_.add(frame);
+      if (begun) statistics().add(frame);
       if (frame.mode == PlayMode::GameOver || frame.time >= end) return;
       if (!goOn_(frame.time)) return;
       if (frame.robots.empty()) throw std::runtime_error("all players have left");
@@ -196,11 +202,11 @@ class ExternalGame {
     }
   }
 
-  lab::GameRecord collect() const {
+  lab::GameRecord collect() {
     const lab::Frame& frame = link_.frames().frame();
     const bool finished = frame.mode == PlayMode::GameOver || frame.time >= 60.0 * settings_.minutes;
     lab::GameRecord record = lab::gameRecord(game_, frame.score[0], frame.score[1], frame.time, finished);
-    record.line["statistics"] = statistics_.toJson();
+    record.line["statistics"] = statistics().toJson();
     for (const bool rightTeam : {false, true}) {
       const lab::TeamSettings& team = rightTeam ? match_.right : match_.left;
       const int here = playersOf(rightTeam != frame.swapped);
@@ -223,7 +229,7 @@ class ExternalGame {
   SideAgents& agents_;
   const std::function<bool(double)>& goOn_;
   MonitorLink link_;
-  lab::MatchStatistics statistics_;
+  std::optional<lab::MatchStatistics> statistics_;
 };
 
 }  // namespace

@@ -148,12 +148,18 @@ agent::AgentParameters acceptedParameters(OptimizeArguments& arguments, bool lea
   return parameters;
 }
 
+// Another set, other seeds: whoever accepts the best of several would else choose it by luck.
+std::uint64_t freshSeed(const std::string& file) {
+  return std::stoull(lab::fingerprintOfFiles({file}), nullptr, 16) >> 32U;
+}
+
 // Measures a set on fresh seeds and writes it with that fitness as its provenance.
 int acceptFile(OptimizeArguments& arguments) {
   if (arguments.out.empty()) throw std::runtime_error("--out FILE says where the accepted set goes");
   lab::OptimizationSettings& settings = arguments.settings;
   const lab::Task& task = lab::findTask(arguments.task);
   settings.task = arguments.task;
+  if (arguments.command->count("--seed") == 0) settings.seed = freshSeed(arguments.accept);
   std::vector<lab::Provenance> origins = lab::readProvenance(arguments.accept);
   lab::Provenance origin;
   for (const lab::Provenance& known : origins) {
@@ -423,8 +429,9 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::ExistingFile)
       ->excludes(resume, out);
   command
-      ->add_option("--accept", arguments->accept,
-                   "Measure a file on TRIALS fresh seeds of the task, write it to --out with that fitness")
+      ->add_option(
+          "--accept", arguments->accept,
+          "Measure a file on TRIALS seeds of its own (or of --seed), write it to --out with that fitness")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--compare-solvers", arguments->compareSolvers,

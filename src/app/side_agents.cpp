@@ -96,6 +96,13 @@ std::string SideAgents::trouble() {
   return "";
 }
 
+// What a command ends with that waited for its agents tells no more than that the game was over.
+bool SideAgents::crashedInGame(std::size_t i) const {
+  const AgentProcesses::Process& process = processes_.processes()[i];
+  if (!agents_[i].foreign || process.told) return crashed(i);
+  return crashed(i) && process.signal != 0;
+}
+
 void SideAgents::addTo(lab::GameRecord& record) {
   struct Sum {
     int crashed = 0;
@@ -106,7 +113,7 @@ void SideAgents::addTo(lab::GameRecord& record) {
   std::array<Sum, 2> sums;  // A, B
   for (std::size_t i = 0; i < agents_.size(); ++i) {
     Sum& sum = sums[agents_[i].rightTeam == game_.aLeft() ? 1 : 0];
-    sum.crashed += crashed(i) ? 1 : 0;
+    sum.crashed += crashedInGame(i) ? 1 : 0;
     sum.processorTime += processes_.processes()[i].processorTime;
     std::ifstream file(agents_[i].report);
     const auto report = nlohmann::json::parse(file, nullptr, false);

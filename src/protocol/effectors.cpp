@@ -70,7 +70,10 @@ bool readInit(CommandReader& reader, Effectors& effectors, int& skipped) {
     reader.atom(value);
     if (name == "unum") {
       init.unum = leadingInteger(value);
-    } else if (name != "teamname" || !init.team.assign(value)) {
+    } else if (name != "teamname") {
+      ++skipped;
+    } else if (!init.team.assign(value)) {
+      init.team.clear();  // cut off it would be another team's
       ++skipped;
     }
     if (!reader.leaveTo(depth)) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint64_t kRefereeStream = 1;
 constexpr std::uint64_t kConnectionStream = 0x1000;  // + handle
+constexpr int kVisionInterval = 3;                   // messages
 
 VisionField::Size fieldSize(const Settings& s) {
   return {s.fieldLength, s.fieldWidth,    s.goalWidth,    s.goalDepth,
@@ -69,7 +70,7 @@ void Simulation::Implementation::listVisiblePlayers() {
 
 // The message of server facts 1.5, as values. Rounding: protocol/rounding.h.
 void Simulation::Implementation::makeSenses(Agent& agent) {
-  const int count = agent.senseCount++;
+  const int count = ++agent.senseCount;
   const Player* player = playerOf(agent);
   // The server finds a new robot's perceptors one cycle after it was built: its first message is made then.
   agent.hasMade = player != nullptr && ++agent.robotCycles > 1;
@@ -95,7 +96,6 @@ void Simulation::Implementation::makeSenses(Agent& agent) {
   percept.order.push_back({protocol::PerceptKind::GameState, 0});
 
   agent.ear.deliver(player->team, match.time, settings.labelMessages, percept);
-  constexpr int kVisionInterval = 3;
   SensorContext context;
   context.field = &field;
   context.players = visible;
@@ -138,6 +138,8 @@ AgentHandle Simulation::connect() {
 AgentHandle Simulation::enter(const protocol::SceneEffector& scene, const protocol::InitEffector& init) {
   Agent& agent = implementation_->addAgent();
   agent.enters = true;
+  // Connected one after the other, players do not all see in the same cycle.
+  agent.senseCount = agent.handle % kVisionInterval;
   agent.scene = scene;
   agent.init = init;
   return agent.handle;

@@ -63,10 +63,7 @@ void Simulation::Implementation::receive(Agent& agent, const protocol::Effectors
 void Simulation::Implementation::broadcast(const Player& sender, std::string_view message) {
   if (!protocol::isSayable(message)) return;
   constexpr float kRange = 50.0F;  // m
-  const auto torso = [this](const Player& player) {
-    return world.bodyPose(player.robot, model::BodyId::Torso).position;
-  };
-  const Vector3f from = torso(sender);
+  const Vector3f from = world.bodyPose(sender.robot, model::BodyId::Torso).position;
   for (const Player& listener : players) {
     Agent* agent = find(listener.agent);
     if (listener.agent == sender.agent) {
@@ -74,7 +71,7 @@ void Simulation::Implementation::broadcast(const Player& sender, std::string_vie
       continue;
     }
     if (sender.side == TeamSide::None || listener.side == TeamSide::None) continue;
-    Vector3f away = from - torso(listener);
+    Vector3f away = from - world.bodyPosition(listener.robot, model::BodyId::Torso);
     if (away.norm() >= kRange) continue;
     if (settings.sayLossShare > 0.0 && agent->deafness.uniform() < settings.sayLossShare) continue;
     // Not relative to the listener's heading: the bearing in its team's field frame.
@@ -162,7 +159,7 @@ void Simulation::Implementation::initialise(Agent& agent, const protocol::InitEf
   if (refusal == GameState::Refusal::TeamName) {
     // The name itself could break the lines of the log.
     spdlog::warn("agent {}: init as number {} refused: {}", agent.handle, init.unum,
-                 "a team's name has only printable characters, no blank, bracket or quote");
+                 "a team's name has 1 to 64 printable characters, no blank, bracket or quote");
   } else if (accepted) {
     seedFor(agent, side, unum);
     spdlog::info("agent {}: number {} of team {} ({}), robot type {}", agent.handle, unum,
@@ -189,7 +186,9 @@ void Simulation::Implementation::initialise(Agent& agent, const protocol::InitEf
     player->team = init.team;
     ++sceneVersion;
   }
-  const Vector3f start = referee.game().nextStartPosition(player->side, settings);
+  Vector3f start = referee.game().nextStartPosition(player->side, settings);
+  // A pile of those who were refused would take the physics longer than their fall.
+  if (player->side == TeamSide::None) start.y() += static_cast<float>(agent.handle % 15 - 7);
   const float yaw = GameState::startYaw(player->side);
   if (entering) {
     world.placeRobot(player->robot, start, yaw);

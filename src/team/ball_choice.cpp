@@ -55,12 +55,17 @@ struct Fan {
   int to = 0;           // and to the last one
 };
 
+// A direction that is worth more, because it was chosen before; rad, own field frame.
+struct Present {
+  std::optional<double> direction;
+  double worth = 0.0;
+};
+
 // `best` becomes the most valuable kick in these directions if one is worth more than it.
 template <class Value>
-void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoice& best,
-                const Value& valueOf) {
+void weighKicks(const Situation& s, const Fan& fan, const Present& present, Candidates* record,
+                BallChoice& best, const Value& valueOf) {
   const ChoiceParameters& p = s.parameters.choice;
-  const std::optional<double> present = presentKick(s);
   for (const motion::KickOption& kick : s.motion.kicks) {
     const motion::KickHead& head = kick.head;
     if (kick.foot != model::Side::Left || !head.isStraight() || head.scales || head.isChip()) continue;
@@ -70,7 +75,7 @@ void weighKicks(const Situation& s, const Fan& fan, Candidates* record, BallChoi
       const double direction = wrapAngle(fan.middle + kStep * i);
       const Vector2 target = s.ball() + length * unitVector(direction);
       double value = valueOf(head, direction, length);
-      if (isSameKick(present, direction)) value += p.keep;
+      if (isSameKick(present.direction, direction)) value += present.worth;
       if (record != nullptr) record->add(target, value);
       if (value <= best.value) continue;
       best = {true, target, value, kick.name};
@@ -125,9 +130,11 @@ BallChoice chooseSetPiece(const Situation& s, Candidates* record) {
   const double value =
       valueUnlessStopped(s, blockOf(s, s.setPlay->p_FTarget), valueAt(s, p_FReceiver, p.shortPass * first));
   BallChoice best{false, s.setPlay->p_FTarget, value, {}};
+  const Present planned{s.planned, p.keepPlan};
+  if (isSameKick(planned.direction, directionOf(best.p_FTarget - s.ball()))) best.value += planned.worth;
   if (record != nullptr) record->clear();
   if (record != nullptr) record->add(s.setPlay->p_FReceiver, best.value);
-  weighKicks(s, {0.0, 0, kAllDirections - 1}, record, best,
+  weighKicks(s, {0.0, 0, kAllDirections - 1}, planned, record, best,
              [&](const motion::KickHead& /*kick*/, double direction, double length) {
                return kickValue(s, direction, length, false);
              });
@@ -142,7 +149,7 @@ BallChoice chooseAction(const Situation& s, Candidates* record) {
   const double left = timeLeftAtBall(s);
   const double contested = valueAt(s, s.ball(), kContested);
   const Vector2 toGoal = s.world.field.theirGoal() - s.ball();
-  weighKicks(s, {directionOf(toGoal), -kDirections, kDirections}, record, best,
+  weighKicks(s, {directionOf(toGoal), -kDirections, kDirections}, {presentKick(s), p.keep}, record, best,
              [&](const motion::KickHead& kick, double direction, double length) {
                const double comesOff =
                    probabilityFirst(timeToContact(s, kick, direction), left, p.setupSpread);

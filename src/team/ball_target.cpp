@@ -133,6 +133,13 @@ double laneWidth(const world::WorldState& world, const Vector2& from, const Vect
   return width;
 }
 
+bool atOwnGoal(const world::WorldState& world) {
+  constexpr double kBefore = 1.0;  // m
+  constexpr double kBeside = 0.25;
+  const Vector2 ball = world.ball.p_FB.head<2>();
+  return ball.x() < -world.field.goalLine() + kBefore && std::abs(ball.y()) < world.field.post() + kBeside;
+}
+
 bool mateBars(const world::WorldState& world, const Vector2& from, const Vector2& to) {
   constexpr double kAhead = 1.5;  // m
   constexpr double kAside = 0.25;

@@ -12,6 +12,9 @@ namespace nonet::team {
 namespace {
 
 constexpr double kBeforeBall = 0.3;  // m that a goalie on guard keeps from the ball
+constexpr double kShotSpeed = 2.0;   // m/s
+constexpr double kBackStep = 0.05;   // m, of the places where it looks how high a lob comes down
+constexpr double kBeforeLine = 0.1;  // m that it stays in front of the goal line
 
 world::BallMotion inFrame(const Pose2& X_RF, const world::BallMotion& ball) {
   const Vector2 p = X_RF * Vector2(ball.p_FB.head<2>());
@@ -22,6 +25,20 @@ world::BallMotion inFrame(const Pose2& X_RF, const world::BallMotion& ball) {
 // m, when the goalie could be about there.
 double ballToGoal(const Situation& s) {
   return (s.forecast.at(s.parameters.goalie.claimAhead) - s.world.field.ownGoal()).norm();
+}
+
+// Where a ball passes above whoever stands, and can be met by stepping back.
+std::optional<ComingShot> metBehind(const Situation& s, const world::BallMotion& seen) {
+  const GoalieParameters& p = s.parameters.goalie;
+  const double toLine = s.world.self.X_FR.translation.x() + s.world.field.goalLine();
+  for (double back = kBackStep; back < toLine - kBeforeLine; back += kBackStep) {
+    const auto passing = world::crossingOfLine(seen, -back);
+    if (!passing) return std::nullopt;
+    if (passing->height > p.standHeight) continue;
+    if (back > p.backSpeed * (passing->time - p.stepDelay)) return std::nullopt;
+    return ComingShot{passing->time, passing->y, passing->height, back};
+  }
+  return std::nullopt;
 }
 
 bool mayGoTo(const Vector2& p_F, const Situation& s) {
@@ -54,7 +71,11 @@ std::optional<ComingShot> comingShot(const Situation& s) {
   const world::BallMotion seen = inFrame(s.world.self.X_FR.inverse(), ball);
   if (seen.p_FB.x() < 0.0) return std::nullopt;  // past the robot
   const auto passing = world::crossingOfLine(seen, 0.0);
-  if (!passing || passing->height > p.highest) return std::nullopt;
+  if (!passing) return std::nullopt;
+  if (passing->height > p.standHeight) {
+    if (const auto behind = metBehind(s, seen)) return behind;
+    if (passing->height > p.highest) return std::nullopt;
+  }
   return ComingShot{passing->time, passing->y, passing->height};
 }
 
@@ -67,12 +88,18 @@ Vector2 clearanceTarget(const Situation& s) {
     // In the middle the ball's side is noise: what the goalie has turned to stays.
     side = std::sin(s.world.teammates[1].X_FP.rotation);
   }
-  return {0.0, side >= 0.0 ? p.clearanceAside : -p.clearanceAside};
+  const Vector2 target(0.0, side >= 0.0 ? p.clearanceAside : -p.clearanceAside);
+  const Vector2 other(target.x(), -target.y());
+  const bool past = mateBars(s.world, s.ball(), target) && !mateBars(s.world, s.ball(), other);
+  return past ? other : target;
 }
 
 bool goalieReaches(const Situation& s, bool claims) {
   if (s.phase() == world::Phase::OwnGoalKick) return true;
   const GoalieParameters& p = s.parameters.goalie;
+  // A fast one that leaves the field may still be a shot.
+  const bool fast = s.world.ball.v_FB.x() < -kShotSpeed;
+  if (fast && !s.world.field.holds(s.forecast.at(p.claimAhead))) return false;
   const double reach = p.attackDistance * (claims ? p.keepClaim : 1.0);
   return world::isOpenPlay(s.phase()) && s.world.ball.known && ballToGoal(s) <= reach;
 }

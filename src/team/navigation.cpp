@@ -14,6 +14,7 @@ namespace nonet::team {
 namespace {
 
 constexpr std::size_t kPosts = 4;
+constexpr double kSomewhere = 1.5;  // m, standard deviation of a place that says nothing
 
 struct Obstacles {
   std::array<Disc, 2 * world::kTeamSize + 2 + kPosts> items{};
@@ -32,7 +33,7 @@ Obstacles obstaclesFor(const world::WorldState& world, const NavigationParameter
   Obstacles obstacles;
   const Vector2 ball = world.ball.p_FB.head<2>();
   const auto add = [&](const world::PlayerState& player, double room) {
-    if (!player.known) return;
+    if (!player.known || player.sigma > kSomewhere) return;
     if (player.fallen) room += parameters.fallenRoom;
     if (caution.duel && (player.X_FP.translation - ball).norm() < parameters.atBall)
       room = parameters.bodyRoom;

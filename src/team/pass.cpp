@@ -14,7 +14,8 @@ namespace nonet::team {
 
 namespace {
 
-constexpr int kRuns = 3;  // places for each receiver: where it stands, and ahead of that
+constexpr double kInPlace = 0.15;  // s from there until a kick begins
+constexpr int kRuns = 3;           // places for each receiver: where it stands, and ahead of that
 
 bool canReceive(const Situation& s, int unum) {
   const world::PlayerState& mate = s.world.teammates[static_cast<std::size_t>(unum)];
@@ -116,9 +117,11 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
         if (!serves(kick, distance, s)) continue;
         if (!resistance) resistance = resistanceTo(s, target);
         Pass pass{unum, target, kick.name};
-        pass.untilKick = timeToContact(s, kick.head, directionOf(way) - kick.head.direction);
-        pass.untilThere = pass.untilKick + p.rollTime;
         const bool kept = isPresent(s, present, pass);
+        pass.untilKick = kept && s.motion.kickInPlace()
+                             ? kick.head.contact + kInPlace
+                             : timeToContact(s, kick.head, directionOf(way) - kick.head.direction);
+        pass.untilThere = pass.untilKick + p.rollTime;
         const std::optional<double> value = valueOf(s, mate, pass, *resistance, left, kept ? p.hold : 1.0);
         if (!value) continue;
         pass.value = *value + (kept ? p.keep : 0.0);

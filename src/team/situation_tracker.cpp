@@ -1,8 +1,24 @@
 #include "nonet/team/situation_tracker.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "nonet/math/direction.h"
 
 namespace nonet::team {
+
+namespace {
+
+// One of ours on its feet is nearer to the ball than the goalie, which is busy.
+bool mateIsNearer(const Situation& s) {
+  const auto& mates = s.world.teammates;
+  const double own = (s.world.self.X_FR.translation - s.ball()).norm();
+  return std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
+    return mate.known && !mate.fallen && (mate.X_FP.translation - s.ball()).norm() < own;
+  });
+}
+
+}  // namespace
 
 SituationTracker::SituationTracker(const TeamParameters& parameters)
     : parameters_(parameters), touches_(parameters.touch) {}
@@ -22,13 +38,17 @@ Situation SituationTracker::update(const world::WorldState& world, const motion:
   if (touches_.barred() == world.game.unum) situation.mayScore = false;
   if (situation.role == Role::Goalie) {
     // In the middle of a kick or a fall it holds on to a ball that is still near.
-    claims_ = situation.mayTouch && (situation.acts() ? goalieWantsBall(situation, claims_)
-                                                      : claims_ && goalieReaches(situation, true));
+    claims_ = situation.mayTouch &&
+              (situation.acts() ? goalieWantsBall(situation, claims_)
+                                : claims_ && goalieReaches(situation, true) && !mateIsNearer(situation));
   }
   situation.claims = claims_;
   situation.lastBeam = lastBeam_;
+  situation.planned = std::exchange(planned_, {});
   if (!intent_) {
     situation.play = ownTurn(situation, recording_ ? &targets_ : nullptr);
+    if (situation.setPlay && situation.play)
+      planned_ = directionOf(situation.play->p_FTarget - situation.ball());
   } else if (situation.acts()) {
     situation.play = playTowards(situation, intent_->p_FTarget, intent_->use);
     situation.play->keep = intent_->keep;

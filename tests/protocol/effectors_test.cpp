@@ -112,6 +112,10 @@ TEST(Effectors, Init) {
   EXPECT_EQ(swapped.init->unum, 4);
   EXPECT_EQ(swapped.init->team, "Red");
   EXPECT_EQ(parsed("(init (teamname Red))").init->unum, 0);
+  const std::string longest(64, 'R');
+  EXPECT_EQ(parsed("(init (unum 4)(teamname " + longest + "))").init->team, longest);
+  EXPECT_EQ(parsed("(init (unum 4)(teamname " + longest + "R))", 1).init->team, "")
+      << "not another team's name";
   EXPECT_EQ(parsed("(init (unum x)(teamname Red))").init->unum, 0);
   EXPECT_EQ(parsed("(init (teamname Red)(color blue))", 1).init->team, "Red");
 }

@@ -1,5 +1,6 @@
 #include "nonet/sim/simulation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -275,6 +276,26 @@ TEST(Cycle, VisionComesInEveryThirdMessage) {
     ++seen;
   }
   EXPECT_EQ(seen, 10);
+}
+
+// Server facts 1.5: each connection counts its own messages.
+TEST(Cycle, PlayersOfAMatchDoNotAllSeeAtOnce) {
+  Simulation simulation(quietSettings());
+  std::array<AgentHandle, 3> agents{};
+  for (int i = 0; i < 3; ++i) {
+    protocol::SceneEffector scene;
+    protocol::InitEffector init;
+    init.unum = i + 2;
+    init.team.assign("A");
+    agents[static_cast<std::size_t>(i)] = simulation.enter(scene, init);
+  }
+  for (int i = 0; i < 6; ++i) simulation.step();
+  for (int i = 0; i < 9; ++i) {
+    simulation.step();
+    EXPECT_EQ(std::count_if(agents.begin(), agents.end(),
+                            [&](AgentHandle agent) { return simulation.sense(agent)->vision.has_value(); }),
+              1);
+  }
 }
 
 TEST(Cycle, SpeedsThatAreNotNumbersAreIgnored) {

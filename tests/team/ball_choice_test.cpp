@@ -105,6 +105,27 @@ TEST_F(Choice, SetPiecesGoToWhereOneOfUsIsFirst) {
   EXPECT_FALSE(chooseSetPiece(scene.situation(Role::OnBall)).kick) << "the one next to the ball gets it";
 }
 
+// Two places that are worth about the same: what was planned stays, until the other one is clearly better.
+TEST_F(Choice, ASetPieceKeepsItsPlan) {
+  scene.world.game.phase = world::Phase::OwnKickIn;
+  ballAt({2.0, -9.9});
+  const Vector2 ball = scene.situation(Role::OnBall).ball();
+  const auto aims = [&](double planned) {
+    Situation s = scene.situation(Role::OnBall);
+    s.planned = planned;
+    return directionOf(chooseSetPiece(s).p_FTarget - ball);
+  };
+  const double left = toRadians(80.0);
+  const double right = toRadians(40.0);
+  Scene::put(scene.world.teammates[6], Pose2(ball + 6.3 * unitVector(left), 0.0));
+  Scene::put(scene.world.teammates[7], Pose2(ball + 6.3 * unitVector(right), 0.0));
+  EXPECT_LT(aims(left) - aims(right), 0.8);
+  EXPECT_GT(aims(left) - aims(right), 0.3);
+  scene.world.teammates[6].known = false;
+  opponentAt(3, ball + 6.3 * unitVector(left));
+  EXPECT_NEAR(aims(left), aims(right), 0.2) << "an opponent waits there now";
+}
+
 TEST_F(Choice, NoSetPieceGoesToAReceiverThatCannotComeInTime) {
   scene.world.game.phase = world::Phase::OwnKickIn;
   ballAt({2.0, -9.9});

@@ -32,6 +32,24 @@ TEST(GoBehindBall, LeadsBehindWhereTheBallWillBe) {
   EXPECT_EQ(ledTo({0.0, 0.9 * p.circleRolling}, 1.0), resting) << "as good as lying";
 }
 
+// Who turns with the feet at a ball of a set piece touches it, and may not touch it again.
+TEST(GoBehind, LeavesRoomToTurnAtASetPiece) {
+  const auto apart = [](world::Phase phase, double heading) {
+    Scene scene;
+    scene.world.game.phase = phase;
+    scene.stand(Pose2(-0.6, 0.0, heading));
+    scene.putBall({0.0, 0.0});
+    Situation s = scene.situation(Role::OnBall);
+    s.play = playTowards(s, {15.0, 0.0}, KickUse::Clear);
+    const auto& walk = std::get<motion::WalkTo>(goBehindBall(s).value().motion);
+    return (s.world.self.X_FR * walk.target.translation).norm();
+  };
+  const BallHandlingParameters p;
+  EXPECT_NEAR(apart(world::Phase::OwnKickIn, 1.2), p.standOff, 0.02);
+  EXPECT_NEAR(apart(world::Phase::OwnKickIn, 0.0), p.behindBall, 0.02);
+  EXPECT_LT(apart(world::Phase::PlayOn, 1.2), p.standOff - 0.03);
+}
+
 // Mate or opponent: past it, and not through the ball.
 TEST(GoBehind, LeadsPastWhoStandsInTheWay) {
   Scene scene;

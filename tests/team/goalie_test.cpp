@@ -115,6 +115,70 @@ TEST(Goalie, StepsIntoTheWayOfAShotThatLeavesTime) {
   EXPECT_EQ(walk->velocity.rotation, 0.0);
 }
 
+// Heights by the ball's law, step by step: above the head where the goalie stands, under the bar at the line.
+TEST(Goalie, StepsBackUnderALob) {
+  const GoalieParameters parameters;
+  constexpr double kOff = 0.1;  // m: a crossing's height leaves out the drag on the way up and down
+  int lobs = 0;
+  for (double lift = 4.0; lift < 6.0; lift += 0.05) {
+    Scene scene = goalieScene({-9.0, 0.1}, {-8.0, 0.0});
+    scene.stand(Pose2(-14.1, 0.0, 0.0));
+    scene.putBall({-9.0, 0.1}, {-8.0, 0.0});
+    scene.world.ball.v_FB.z() = lift;
+    const auto heightAt = [&](double x) {
+      world::BallMotion ball{scene.world.ball.p_FB, scene.world.ball.v_FB};
+      for (int i = 0; i < 2000 && ball.p_FB.x() > x; ++i) world::stepBall(ball, 0.002);
+      return ball.p_FB.x() > x ? 0.0 : ball.p_FB.z();
+    };
+    const double above = heightAt(-14.1);
+    if (above < parameters.standHeight + kOff || above > 0.6 ||
+        heightAt(-14.8) > parameters.standHeight - 0.05)
+      continue;
+    ++lobs;
+    const std::optional<ComingShot> shot = comingShot(scene.situation(Role::Goalie));
+    ASSERT_TRUE(shot) << lift;
+    EXPECT_GT(shot->back, 0.0) << lift;
+    EXPECT_LT(heightAt(-14.1 - shot->back), parameters.standHeight + kOff);
+    EXPECT_GT(heightAt(-14.1 - shot->back + 0.1), parameters.standHeight - kOff) << "no farther than it must";
+    const Action action = scene.decideAs(Role::Goalie);
+    const auto* walk = std::get_if<motion::WalkVelocity>(&action.motion);
+    ASSERT_NE(walk, nullptr);
+    EXPECT_LT(walk->velocity.translation.x(), -0.2);
+    EXPECT_GT(walk->velocity.translation.y(), 0.0);
+    scene.parameters.goalie.backSpeed = 0.0;
+    const std::optional<ComingShot> stands = comingShot(scene.situation(Role::Goalie));
+    EXPECT_EQ(stands ? stands->back : 0.0, 0.0);
+  }
+  EXPECT_GT(lobs, 0);
+}
+
+// In a second it will be behind the line beside the goal, near enough to be claimed.
+TEST(Goalie, DoesNotGoAfterABallThatLeavesTheField) {
+  EXPECT_FALSE(goalieScene({-13.0, 1.3}, {-3.5, 0.6}).situation(Role::Goalie).claims);
+  EXPECT_TRUE(goalieScene({-13.0, 1.3}, {-1.5, 0.3}).situation(Role::Goalie).claims) << "this one stays";
+}
+
+TEST(Goalie, ABusyOneLeavesTheBallToANearerMate) {
+  Scene scene = goalieScene({-13.5, 0.2}, {0.0, 0.0});
+  SituationTracker tracker(scene.parameters);
+  EXPECT_TRUE(tracker.update(scene.world, scene.motion).claims);
+  scene.motion.busy = true;
+  Scene::put(scene.world.teammates[6], Pose2(-13.3, 0.4, kPi));
+  scene.world.teammates[6].fallen = true;
+  EXPECT_TRUE(tracker.update(scene.world, scene.motion).claims);
+  scene.world.teammates[6].fallen = false;
+  EXPECT_FALSE(tracker.update(scene.world, scene.motion).claims);
+}
+
+TEST(Goalie, DoesNotClearIntoAMate) {
+  Scene scene = goalieScene({-14.0, 0.6}, {0.0, 0.0});
+  const Vector2 free = clearanceTarget(scene.situation(Role::Goalie));
+  EXPECT_GT(free.y(), 0.0);
+  Scene::put(scene.world.teammates[6],
+             Pose2(Vector2(-14.0, 0.6) + (free - Vector2(-14.0, 0.6)).normalized(), 0.0));
+  EXPECT_LT(clearanceTarget(scene.situation(Role::Goalie)).y(), 0.0);
+}
+
 // A shot will soon lie in the goal: that is no reason to walk there.
 TEST(Goalie, DoesNotClaimAShot) {
   const Scene scene = goalieScene({-10.0, 0.3}, {-9.0, 0.0});

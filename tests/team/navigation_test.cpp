@@ -124,6 +124,21 @@ TEST(Navigation, KeepsOffTheBallAndThePlayerOnIt) {
   EXPECT_NEAR(world.self.X_FR.translation.x(), 3.0, 0.2);
 }
 
+TEST(Navigation, WalksStraightThroughWhereSomebodyMayBe) {
+  world::WorldState world;
+  world.game.unum = 2;
+  put(world.opponents[5], Vector2(1.0, 0.0));
+  Caution caution;
+  caution.robots = 0.7;
+  const auto aside = [&](double sigma) {
+    world.opponents[5].sigma = sigma;
+    const auto request = walkTo(world, {}, Pose2(2.0, 0.0, 0.0), caution);
+    return std::abs(std::get<motion::WalkTo>(request).target.translation.y());
+  };
+  EXPECT_GT(aside(0.3), 0.3);
+  EXPECT_LT(aside(2.0), 0.01) << "unseen for seconds";
+}
+
 TEST(Navigation, WaitsAtTheEdgeOfAPlaceThatIsTaken) {
   world::WorldState world;
   world.game.unum = 2;

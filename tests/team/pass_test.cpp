@@ -209,6 +209,29 @@ TEST(Pass, NotToAMateThatHasFallenSilent) {
   EXPECT_FALSE(scene.best());
 }
 
+// An opponent that comes up to the robot on its last steps.
+TEST(Pass, GoesOnUnderPressure) {
+  Passing scene;
+  motion::KickTo lined;
+  lined.ball = scene.world.ball.p_RB;
+  lined.target = scene.world.self.X_FR.inverse() * scene.best().value().p_FTarget;
+  lined.stops = true;
+  lined.kick = std::string_view("pass");
+  scene.world.opponents[3].known = false;
+  const auto passes = [&](double away) {
+    Scene::put(scene.world.opponents[6], Pose2(1.0 - 0.6 * away, -0.8 * away, 0.0));
+    const Situation s = scene.situation(Role::OnBall);
+    return s.nearestOpponent >= scene.parameters.pass.press * scene.parameters.pass.room &&
+           pass(s).has_value();
+  };
+  scene.parameters.pass.better = -1.0;
+  EXPECT_FALSE(passes(0.7));
+  scene.motion.request = lined;
+  EXPECT_TRUE(passes(0.7));
+  scene.parameters.pass.press = 1.0;
+  EXPECT_FALSE(passes(0.7));
+}
+
 // A lane that is just too narrow to begin with.
 TEST(Pass, OneThatIsBeingLinedUpIsNotGivenUpForALittle) {
   Passing scene;

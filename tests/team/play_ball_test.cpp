@@ -255,6 +255,72 @@ TEST(PlayBall, KicksOnlyToWhereOneOfUsIsFirst) {
   EXPECT_TRUE(kicks(10.0, {14.5, 1.5}, 0.0)) << "a shot ends in the goal";
 }
 
+// A robot on the last steps to its kick does not ask again who will be first where the ball goes, and an
+// opponent that comes up to it leaves less room than a kick needs that is only begun.
+TEST(PlayBall, AKickThatIsLinedUpIsHeld) {
+  const auto kicks = [](const motion::MotionRequest& before, const Vector2& opponent, double turned,
+                        double hold) {
+    Scene scene;
+    scene.parameters.ball.kickHold = hold;
+    scene.stand(Pose2(-5.25, 0.0, 0.0));
+    scene.putBall({-5.0, 0.0});
+    Scene::put(scene.world.opponents[4], Pose2(opponent, kPi));
+    scene.motion.request = before;
+    Situation s = assess(scene.world, scene.parameters, scene.motion);
+    s.play = playTowards(s, s.ball() + 10.0 * unitVector(turned), KickUse::IfFree);
+    const std::optional<Action> action = kick(s);
+    return action && std::holds_alternative<motion::KickTo>(action->motion);
+  };
+  motion::KickTo lined;
+  lined.ball = {0.25, 0.0};
+  lined.target = {10.25, 0.0};
+  const motion::Stand none;
+  const Vector2 waits(1.3, 1.0);
+  EXPECT_FALSE(kicks(none, waits, 0.0, 0.5)) << "an opponent is first where it ends";
+  EXPECT_TRUE(kicks(lined, waits, 0.0, 0.5));
+  EXPECT_FALSE(kicks(lined, waits, 0.0, 0.2)) << "some steps from the ball";
+  const Vector2 comes(-4.2, 0.5);
+  EXPECT_FALSE(kicks(none, comes, 0.0, 0.5));
+  EXPECT_TRUE(kicks(lined, comes, 0.0, 0.5));
+  EXPECT_FALSE(kicks(lined, {-4.7, 0.4}, 0.0, 0.5)) << "no room";
+  EXPECT_FALSE(kicks(lined, waits, 0.6, 0.5)) << "quite another way";
+  motion::KickTo pass = lined;
+  pass.stops = true;
+  EXPECT_FALSE(kicks(pass, waits, 0.0, 0.5)) << "another kick";
+}
+
+// From beside the goal a ball towards the far post crosses the line between the posts, but mostly misses.
+TEST(PlayBall, AKickThatHardlyScoresIsNoShot) {
+  const auto kicks = [](const Vector2& ball) {
+    Scene scene;
+    scene.parameters.shot.distance = 0.0;
+    const Vector2 target(15.2, 0.2);
+    const double direction = directionOf(target - ball);
+    scene.stand(Pose2(ball - 0.25 * unitVector(direction), direction));
+    scene.putBall(ball);
+    return std::holds_alternative<motion::KickTo>(scene.handleBall(target, KickUse::IfFree));
+  };
+  EXPECT_TRUE(kicks({10.5, 2.5}));
+  EXPECT_FALSE(kicks({13.5, 5.0}));
+}
+
+// Right before the own goal there is no time to go around the ball.
+TEST(PlayBall, PushesTheBallAwayFromTheOwnGoalAsItStands) {
+  const auto pushes = [](const Vector2& ball, double heading) {
+    Scene scene;
+    scene.parameters.ball.kick = false;
+    scene.stand(Pose2(ball - 0.25 * unitVector(heading), heading));
+    scene.putBall(ball);
+    const Action action = scene.decideAs(Role::OnBall);
+    return action.reason.behavior == std::string_view("dribble");
+  };
+  EXPECT_TRUE(pushes({-14.8, -0.4}, toRadians(-83.0))) << "past the post";
+  EXPECT_FALSE(pushes({-14.8, 0.4}, toRadians(-83.0))) << "along before the goal";
+  EXPECT_FALSE(pushes({-14.6, 0.0}, toRadians(-140.0))) << "into it";
+  EXPECT_TRUE(pushes({-14.6, 0.0}, toRadians(60.0)));
+  EXPECT_FALSE(pushes({0.0, -0.4}, toRadians(-83.0))) << "elsewhere there is";
+}
+
 // Straight ahead through the ball, from this place behind it: is it dribbled, and how far off is the next
 // place?
 struct Touch {

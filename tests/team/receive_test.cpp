@@ -44,6 +44,14 @@ TEST(Receive, GoesToTheLineAndFacesTheBall) {
   EXPECT_GT(scene.speed().rotation, 0.5);
 }
 
+TEST(Receive, ABallAtTheFeetIsPlayed) {
+  Coming scene;
+  scene.putBall({0.5, 0.1}, {-1.0, 0.0});
+  EXPECT_TRUE(scene.act());
+  scene.putBall({0.25, 0.1}, {-1.0, 0.0});
+  EXPECT_FALSE(scene.act());
+}
+
 TEST(Receive, ABallThatItCannotReachIsNotReceived) {
   Coming scene;
   scene.putBall({1.0, 1.5}, {-3.0, 0.0});  // passes 1.5 m away in a third of a second

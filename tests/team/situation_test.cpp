@@ -10,6 +10,7 @@
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 #include "nonet/team/formation.h"
+#include "nonet/team/goalie.h"
 #include "nonet/team/situation_tracker.h"
 
 #include "scene.h"
@@ -191,6 +192,28 @@ TEST(Situation, TheReceiverOfASetPieceIsWhoStandsNextToItsPlace) {
       EXPECT_GT((s.formation.positions[static_cast<std::size_t>(i)] - s.setPlay->p_FReceiver).norm(), 0.7)
           << "nobody else is to stand there: " << i << " at ball " << ball.transpose();
   }
+}
+
+// The kick of 0.9 x 7 m goes to the side of the receiver that waits for another one; most of us are to be
+// nearer to where it ends than to where it begins.
+TEST(Situation, AtAGoalKickTheOthersAreWhereItComesDown) {
+  Scene scene;
+  scene.world.game.phase = world::Phase::OwnGoalKick;
+  scene.putBall({-14.0, 0.0});
+  const auto nearer = [&] {
+    const Situation s = scene.situation(Role::Stopper);
+    const Vector2 end = s.ball() + 6.3 * (clearanceTarget(s) - s.ball()).normalized();
+    int count = 0;
+    for (int i = 2; i < s.formation.count; ++i) {
+      const Vector2& place = s.formation.positions[static_cast<std::size_t>(i)];
+      count += (place - end).norm() < (place - s.ball()).norm() ? 1 : 0;
+    }
+    return count;
+  };
+  const int with = nearer();
+  EXPECT_GE(with, 5);
+  scene.parameters.ball.kick = false;
+  EXPECT_LT(nearer(), with);
 }
 
 // Rising takes its time from the fall on; who has not come up by then tries again.

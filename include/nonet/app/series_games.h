@@ -63,6 +63,7 @@ class SideAgents {
 
   void startForeign(const lab::SideSettings& side, bool rightTeam, const ServerPlace& server);
   bool crashed(std::size_t i) const;
+  bool crashedInGame(std::size_t i) const;
 
   const lab::SeriesSettings& settings_;
   lab::SeriesGame game_;

@@ -237,6 +237,8 @@ struct BallHandlingParameters {
   double handleDistance = 0.9;
   double waitBehind = 0.35;
   double kickPress = 0.25;
+  double kickHold = 0.5;
+  double kickHoldAngle = 0.4;
   double kickLaneLength = 3.0;
   double kickRolling = 0.3;
   double kickBehind = 0.08;
@@ -402,6 +404,20 @@ struct BallHandlingParameters {
           self.kickBesides);
     visit({"alignedBehind", Unit::Metre, {0, 1}, search(0, 0.12), "Dribble when this far behind the ball"},
           self.alignedBehind);
+    visit({"kickHold",
+           Unit::Metre,
+           {0, 3},
+           fixed,
+           "With the ball nearer than this a kick that is lined up is held, whoever will be first where it "
+           "goes; "
+           "only the room (kickRoom) must be left"},
+          self.kickHold);
+    visit({"kickHoldAngle",
+           Unit::Radian,
+           {0, 3.2},
+           fixed,
+           "unless another direction by more than this is wanted"},
+          self.kickHoldAngle);
     visit({"awaitMargin",
            Unit::Second,
            {-10, 100},

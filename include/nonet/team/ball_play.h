@@ -75,6 +75,9 @@ double barred(const world::WorldState& world, const BallTargetParameters& parame
 double laneWidth(const world::WorldState& world, const Vector2& from, const Vector2& to, double widest,
                  const motion::KickHead& kick = {});
 
+/// The ball lies right before the own goal: whoever is there plays it at once.
+bool atOwnGoal(const world::WorldState& world);
+
 /// One of ours is in the way so near to the ball that no kick passes it.
 bool mateBars(const world::WorldState& world, const Vector2& from, const Vector2& to);
 

@@ -126,6 +126,7 @@ struct ReceiveParameters {
   double pace = 0.5;
   double reaction = 0.15;
   double reach = 0.25;
+  double nearest = 0.35;
   double step = 0.1;
   double ready = 0.03;
   double gain = 4.0;
@@ -143,6 +144,7 @@ struct ReceiveParameters {
            search(0.2, 1.0),
            "A ball that comes slower is gone to instead"},
           self.speed);
+    visit({"nearest", Unit::Metre, {0, 3}, fixed, "One that is nearer is at the feet already"}, self.nearest);
     visit({"within", Unit::Second, {0.1, 10}, fixed, "The ball must be here within this time"}, self.within);
     visit({"pace",
            Unit::MetrePerSecond,

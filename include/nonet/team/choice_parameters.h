@@ -27,6 +27,7 @@ struct ChoiceParameters {
   double dribbleLoss = 0.6;
   double out = 0.5;
   double keep = 0.02;
+  double keepPlan = 0.05;
   double shortPass = 0.85;
   double late = 1.0;
 
@@ -114,6 +115,8 @@ struct ChoiceParameters {
            "Share of the ball's worth that opponents gain by a throw-in or goal kick there"},
           self.out);
     visit({"keep", Unit::None, {0, 1}, fixed, "A kick that is on its way is worth so much more"}, self.keep);
+    visit({"keepPlan", Unit::None, {0, 1}, fixed, "At a set piece what was planned is worth so much more"},
+          self.keepPlan);
     visit({"shortPass",
            Unit::None,
            {0, 1},

@@ -15,11 +15,13 @@ namespace nonet::team {
 Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters,
                  double clear = 0.0);
 
-/// A ball that will be in the goal unless the goalie meets it: where it passes the robot.
+/// A ball that will be in the goal unless the goalie meets it: where it passes the robot, or under a lob
+/// behind it, as far as it can step back.
 struct ComingShot {
-  double time = 0.0;    // s from now until it crosses the robot's lateral axis
+  double time = 0.0;    // s from now until it crosses the robot's lateral axis, or one so far behind it:
   double aside = 0.0;   // m along that axis, left positive
   double height = 0.0;  // m, of the ball's centre there
+  double back = 0.0;    // m
 };
 std::optional<ComingShot> comingShot(const Situation& situation);
 

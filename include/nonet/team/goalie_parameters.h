@@ -30,6 +30,8 @@ struct GoalieParameters {
   double blockReach = 0.33;
   double blockHeight = 0.2;
   double highest = 0.9;
+  double standHeight = 0.42;
+  double backSpeed = 0.6;
   double foremost = 0.5;
   double fightDistance = 1.2;
   double oldestSight = 0.1;
@@ -142,6 +144,18 @@ struct GoalieParameters {
            fixed,
            "A ball that passes the robot or the goal line higher than this is none for the goalie"},
           self.highest);
+    visit({"standHeight",
+           Unit::Metre,
+           {0, 2},
+           fixed,
+           "Under a ball that passes it higher than this it steps back to where it comes down so low"},
+          self.standHeight);
+    visit({"backSpeed",
+           Unit::MetrePerSecond,
+           {0, 5},
+           fixed,
+           "if it gets there at this speed, after stepDelay; 0: never"},
+          self.backSpeed);
     visit({"foremost",
            Unit::Second,
            {-10, 10},

@@ -33,6 +33,7 @@ class SituationTracker {
   TouchWatch touches_;
   Candidates targets_;
   std::optional<BallIntent> intent_;
+  std::optional<double> planned_;    // where a set piece was to go in the last cycle, likewise
   std::optional<double> direction_;  // where the ball was to go in the last cycle, rad, own field frame
   bool recording_ = false;
   bool claims_ = false;              // the goalie goes to the ball

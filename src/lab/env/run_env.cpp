@@ -26,7 +26,8 @@ constexpr std::size_t kBody = 14;   // numbers beside the joints' angles and spe
 class RunEnv final : public Env {
  public:
   explicit RunEnv(const EnvSettings& settings)
-      : setup_(trialSettings(settings.agent)), model_(model::robotModel(settings.agent.robotType)) {
+      : setup_(onOpenGround(trialSettings(settings.agent))),
+        model_(model::robotModel(settings.agent.robotType)) {
     setup_.physics.solver =
         settings.server.quickSolver ? sim::WorldSettings::Solver::Quick : sim::WorldSettings::Solver::Exact;
     stand_ =

@@ -160,7 +160,7 @@ SeriesResult Series::result() const {
     result.pairs.push_back(seconds > 0.0 ? difference * 600.0 / seconds : 0.0);
     test.add(result.pairs.back());
   }
-  result.difference = summarizePairs(result.pairs);
+  result.difference = summarizePairs(result.pairs, settings_.resolution());
   if (settings_.sequential) {
     result.verdict = test.verdict();
     result.logLikelihoodRatio = test.logLikelihoodRatio();

@@ -159,8 +159,14 @@ PlayGame unlessChanged(const SeriesSettings& settings, const std::string& dataFo
 bool playSeries(Series& series, int jobs, const PlayGame& play,
                 const std::function<bool(const SeriesProgress&)>& watch) {
   Run run(series, play);
+  const int games = static_cast<int>(series.open().size());
   std::vector<std::thread> threads;
-  for (int i = 0; i < std::max(1, jobs); ++i) threads.emplace_back([&run] { run.work(); });
+  try {
+    for (int i = std::clamp(games, 1, std::max(1, jobs)); i > 0; --i)
+      threads.emplace_back([&run] { run.work(); });
+  } catch (const std::system_error&) {
+    if (threads.empty()) throw;  // else those that there are play
+  }
   run.watch(watch);
   for (std::thread& thread : threads) thread.join();
   run.rethrow();

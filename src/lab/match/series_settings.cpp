@@ -98,12 +98,6 @@ void hashFile(const std::string& path, std::uint64_t& hash) {
   }
 }
 
-std::string fingerprintOfFiles(const std::vector<std::string>& files) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const std::string& file : files) hashFile(file, hash);
-  return fmt::format("{:016x}", hash);
-}
-
 // Where the side's program reads params/ and skills/; empty: it will say itself that it finds none.
 std::string dataOf(const SideSettings& side, const std::string& dataFolder) {
   if (!side.dataFolder.empty()) return side.dataFolder;
@@ -126,6 +120,12 @@ std::string dataBeside(const std::string& executable) {
   } catch (const agent::DataError&) {
     return "";
   }
+}
+
+std::string fingerprintOfFiles(const std::vector<std::string>& files) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const std::string& file : files) hashFile(file, hash);
+  return fmt::format("{:016x}", hash);
 }
 
 std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder) {

@@ -11,6 +11,7 @@ using protocol::PlayMode;
 
 // Rolling, the ball loses its speed as exp(-kDrag t) (server facts 3.5).
 constexpr double kDrag = 1.06;           // 1/s
+constexpr double kSameWay = 0.26;        // rad
 constexpr double kReach = 0.5;           // m from torso to ball within which a robot can have touched it
 constexpr double kContact = 0.22;        // m: so near that a moving ball is being pushed
 constexpr double kPushed = 0.15;         // m/s
@@ -39,7 +40,22 @@ const FrameRobot* nearest(const Frame& frame, const Vector2& p_W, double& distan
   return found;
 }
 
+// The mean speed over a time in which the ball rolled, times this, is its speed at the begin.
+double begunFaster(double seconds) {
+  return kDrag * seconds / (1.0 - std::exp(-kDrag * seconds));
+}
+
 }  // namespace
+
+// A contact between two pictures shows in two steps of the ball: a part of its new way, then all of it.
+bool MatchStatistics::sameContact(const Frame& frame, const FrameRobot& robot, const Vector2& velocity,
+                                  double step) const {
+  const bool another = touch_ && (touch_->team != robot.team || touch_->unum != robot.unum);
+  if (!another || !velocity_ || frame.time - touch_->begin > 1.5 * step) return false;
+  const double before = velocity_->norm();
+  const double after = velocity.norm();
+  return after > before && velocity.dot(*velocity_) > std::cos(kSameWay) * after * before;
+}
 
 bool MatchStatistics::Touch::isKick() const {
   return speed >= kKickSpeed && speed - before >= kKickGain;
@@ -47,7 +63,7 @@ bool MatchStatistics::Touch::isKick() const {
 
 void MatchStatistics::sampleBall(const Frame& frame, double step) {
   const Vector2 p_W = frame.p_WBall.head<2>();
-  const Vector2 velocity = (p_W - p_WBall_) / step;
+  const Vector2 velocity = begunFaster(step) * (p_W - p_WBall_) / step;
   const bool placed = velocity.norm() > 15.0;  // the referee has put it somewhere
   if (placed || frame.mode == PlayMode::BeforeKickOff || frame.mode == PlayMode::GameOver) {
     velocity_.reset();
@@ -67,7 +83,7 @@ void MatchStatistics::sampleBall(const Frame& frame, double step) {
     const FrameRobot& robot = there <= here ? *robotThere : *robotHere;
     const double distance = std::min(there, here);
     const bool pushed = distance < kContact && velocity.norm() > kPushed;
-    if ((turned && distance < kReach) || pushed)
+    if (((turned && distance < kReach) || pushed) && !sameContact(frame, robot, velocity, step))
       touched(frame, robot, velocity, before);
     else
       refreshTouch(frame, velocity);

@@ -184,7 +184,7 @@ void CmaEs::checkStop(const Eigen::VectorXd& sortedFitness) {
     const double spread = std::max(*high - *low, sortedFitness[population_ - 1] - sortedFitness[0]);
     if (spread < 1e-12) stop_ = CmaEsStop::FlatFitness;
   }
-  if ((sigma_ * covariance_.diagonal().cwiseSqrt()).maxCoeff() < 1e-12 * settings_.sigma)
+  if ((sigma_ * covariance_.diagonal().cwiseSqrt()).maxCoeff() < settings_.leastStep * settings_.sigma)
     stop_ = CmaEsStop::SmallStep;
   if ((mean_ + 0.2 * deviations()).isApprox(mean_, 0.0)) stop_ = CmaEsStop::NoEffect;
 }
@@ -231,10 +231,13 @@ void RestartingCmaEs::restart() {
     largePopulation_ *= 2;
     settings.population = largePopulation_;
   }
+  const bool narrow = settings_.startLow.size() > 0;
+  const Eigen::VectorXd& low = narrow ? settings_.startLow : settings_.low;
+  const Eigen::VectorXd& high = narrow ? settings_.startHigh : settings_.high;
   Eigen::VectorXd start = start_;
   for (Eigen::Index i = 0; i < start.size(); ++i) {
-    start[i] = settings_.low.size() > 0 ? random_.uniform(settings_.low[i], settings_.high[i])
-                                        : start_[i] + settings_.sigma * random_.normal();
+    start[i] =
+        low.size() > 0 ? random_.uniform(low[i], high[i]) : start_[i] + settings_.sigma * random_.normal();
   }
   run_ = CmaEs(start, settings);
 }

@@ -44,9 +44,15 @@ void restoreRandom(const json& value, Random& random) {
 }
 
 json settingsJson(const CmaEsSettings& settings) {
-  return {{"population", settings.population}, {"sigma", settings.sigma},
-          {"active", settings.active},         {"seed", settings.seed},
-          {"low", toJson(settings.low)},       {"high", toJson(settings.high)}};
+  return {{"population", settings.population},
+          {"sigma", settings.sigma},
+          {"active", settings.active},
+          {"seed", settings.seed},
+          {"low", toJson(settings.low)},
+          {"high", toJson(settings.high)},
+          {"leastStep", settings.leastStep},
+          {"startLow", toJson(settings.startLow)},
+          {"startHigh", toJson(settings.startHigh)}};
 }
 
 CmaEsSettings settingsFrom(const json& value) {
@@ -57,6 +63,10 @@ CmaEsSettings settingsFrom(const json& value) {
   settings.seed = value.at("seed").get<std::uint64_t>();
   settings.low = matrixFrom(value.at("low"));
   settings.high = matrixFrom(value.at("high"));
+  if (!value.contains("leastStep")) return settings;  // begun before there was one
+  settings.leastStep = value.at("leastStep").get<double>();
+  settings.startLow = matrixFrom(value.at("startLow"));
+  settings.startHigh = matrixFrom(value.at("startHigh"));
   return settings;
 }
 

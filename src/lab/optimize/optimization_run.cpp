@@ -66,13 +66,19 @@ const OptimizationSettings& checked(const OptimizationSettings& settings) {
   return settings;
 }
 
+// With such small steps (shares of the first) candidates differ by less than trials of one do.
+constexpr double kLeastStep = 1e-3;
+
 CmaEsSettings cmaSettings(const OptimizationSettings& settings, const SearchSpace& space) {
   return {.population = settings.population,
           .sigma = settings.sigma,
           .active = true,
           .seed = settings.seed,
           .low = space.low(),
-          .high = space.high()};
+          .high = space.high(),
+          .leastStep = kLeastStep,
+          .startLow = Eigen::VectorXd::Zero(space.dimension()),
+          .startHigh = Eigen::VectorXd::Ones(space.dimension())};
 }
 
 // Fitness of a generation for ranking. In a race, candidates with fewer trials stay below all with more:

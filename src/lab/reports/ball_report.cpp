@@ -114,10 +114,10 @@ BallSkillReport measureSlalom(const BallReportSettings& s, const sim::Settings& 
 
 BallSkillReport measureDrive(const BallReportSettings& s, const sim::Settings& server) {
   const auto trials = repeated(s, "drive", [&](auto seed) { return driveOnce(s.agent, server, seed); });
-  return reportOf(
-      "drive", trials,
-      {figure("drive_m", "m nearer to the goal in 15 s", trials, [](const auto& t) { return t.gained; }),
-       figure("drive_goals", "share with a goal", trials, [](const auto& t) { return t.goal; })});
+  return reportOf("drive", trials,
+                  {figure("drive_m", "m nearer to the goal in 15 s; a goal: its way times 15 s / its time",
+                          trials, [](const auto& t) { return t.gained; }),
+                   figure("drive_goals", "share with a goal", trials, [](const auto& t) { return t.goal; })});
 }
 
 BallSkillReport measureDuel(const BallReportSettings& s, const sim::Settings& server) {

@@ -7,6 +7,8 @@
 
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
+#include "nonet/math/straight_way.h"
+#include "nonet/world/world_state.h"
 
 #include "lab/common/parallel.h"
 #include "lab/reports/walk_speeds.h"
@@ -35,9 +37,9 @@ class NoisyPose {
   NoisyPose(const WalkReportSettings& settings, Random random) : settings_(&settings), random_(random) {}
   Pose2 of(const MeasuredRobot& trial) {
     if (cycle_++ % 3 == 0) {
-      noise_ =
-          Pose2(random_.normal(0.0, settings_->positionNoise), random_.normal(0.0, settings_->positionNoise),
-                random_.normal(0.0, settings_->headingNoise));
+      const double rotation = random_.normal(0.0, settings_->headingNoise);
+      const double y = random_.normal(0.0, settings_->positionNoise);
+      noise_ = Pose2(random_.normal(0.0, settings_->positionNoise), y, rotation);
     }
     const Pose2 pose = trial.pose();
     return {pose.translation + noise_.translation, wrapAngle(pose.rotation + noise_.rotation)};
@@ -50,16 +52,37 @@ class NoisyPose {
   int cycle_ = 0;
 };
 
-// Stands somewhere, for a random while, so that trials differ in the phase of vision and in the last digits.
-void begin(MeasuredRobot& trial, Random& random) {
-  trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
+Pose2 anyPose(Random& random) {
+  const double rotation = random.uniform(-kPi, kPi);
+  const double y = random.uniform(-1.0, 1.0);
+  return {random.uniform(-1.0, 1.0), y, rotation};
+}
+
+// Ten seconds lead out of a server's field, but into neither a goal nor the ball.
+Pose2 withFreeWay(Random& random) {
+  constexpr double kRoom = 0.6;  // m
+  const world::FieldGeometry field;
+  const auto bars = [&](const Pose2& start, const Vector2& place, double room) {
+    return StraightWay(start.translation, start * Vector2(kFarTarget, 0.0)).distanceTo(place) < room;
+  };
+  Pose2 start;
+  do {
+    start = anyPose(random);
+  } while (bars(start, field.theirGoal(), field.post() + kRoom) ||
+           bars(start, field.ownGoal(), field.post() + kRoom) || bars(start, kMeasuredRobotBall, kRoom));
+  return start;
+}
+
+// Stands there for a random while, so that trials differ in the phase of vision and in the last digits.
+void begin(MeasuredRobot& trial, const Pose2& start, Random& random) {
+  trial.settle(start);
   trial.run(MotionRequest{}, random.uniform(0.02, 0.4));
 }
 
 Walk walkInDirection(MeasuredRobot& trial, const WalkReportSettings& settings, double direction,
                      std::uint64_t seed) {
   Random random(seed);
-  begin(trial, random);
+  begin(trial, anyPose(random), random);
   NoisyPose noisy(settings, random.fork(1));
   const Pose2 start = trial.pose();
   const Vector2 along = unitVector(direction);
@@ -84,7 +107,7 @@ Walk walkInDirection(MeasuredRobot& trial, const WalkReportSettings& settings, d
 
 Walk walkTenSeconds(MeasuredRobot& trial, const WalkReportSettings& settings, std::uint64_t seed) {
   Random random(seed);
-  begin(trial, random);
+  begin(trial, withFreeWay(random), random);
   NoisyPose noisy(settings, random.fork(1));
   const Pose2 start = trial.pose();
   const Pose2 odometryStart = trial.belief().body.odometry;
@@ -110,7 +133,7 @@ Walk walkTenSeconds(MeasuredRobot& trial, const WalkReportSettings& settings, st
 
 Walk turnOnTheSpot(MeasuredRobot& trial, double sense, std::uint64_t seed) {
   Random random(seed);
-  begin(trial, random);
+  begin(trial, anyPose(random), random);
   motion::WalkVelocity request;
   request.velocity = Pose2(0.0, 0.0, sense * kFastTurn);
   Walk walk;
@@ -149,7 +172,7 @@ WalkReport measureWalk(const WalkReportSettings& settings) {
     if (!remote) {
       TrialSettings setup = settings.setup;
       setup.seed = seed;
-      own = makeMeasuredRobot(setup);
+      own = makeMeasuredRobot(onOpenGround(setup));
     }
     MeasuredRobot& robot = remote ? *remote : *own;
     Walk& walk = walks[static_cast<std::size_t>(i)];

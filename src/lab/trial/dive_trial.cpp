@@ -90,7 +90,8 @@ Dive diveAndRise(const TrialSettings& setup, std::string_view name, Side side, s
   Random random(seed);
   trial.settle(Pose2(0.0, 0.0, random.uniform(-kPi, kPi)));
   motion::WalkVelocity step;
-  step.velocity = Pose2(0.0, random.uniform(-0.2, 0.2), random.uniform(-0.5, 0.5));
+  step.velocity.rotation = random.uniform(-0.5, 0.5);
+  step.velocity.translation.y() = random.uniform(-0.2, 0.2);
   trial.run(step, random.uniform(0.0, 0.6));  // a goalie is seldom quite still
   const Pose2 start = trial.pose();
   const motion::PlaySkill request{name, side};

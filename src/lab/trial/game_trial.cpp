@@ -12,6 +12,7 @@
 #include "nonet/agent/agent_setup.h"
 #include "nonet/lab/trial/push.h"
 #include "nonet/lab/trial/true_pose.h"
+#include "nonet/math/random.h"
 
 #include "lab/trial/trial_server.h"
 
@@ -19,6 +20,7 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kSightStream = 11;
 constexpr double kPreparation = 2.0;  // s from entering to the trial: beam, stand, one look about
 constexpr const char* kLeftName = "Nonet";
 constexpr const char* kRightName = "Guests";
@@ -161,9 +163,11 @@ struct GameTrial::Implementation {
               {velocity.x(), velocity.y(), 0.0});
   }
 
-  // The ball lies where it will be: before the kick-off the referee puts it back to the centre spot.
-  void prepare(const GameSituation& situation) {
-    const long preparation = std::lround(kPreparation / kCycleTime);
+  // The ball lies where it will be: before the kick-off the referee puts it back to the centre spot. In play
+  // nobody knows when in a step the next sight comes: so it is here.
+  void prepare(const GameSituation& situation, std::uint64_t seed) {
+    const auto later = static_cast<long>(Random(seed).fork(kSightStream).below(3));
+    const long preparation = std::lround(kPreparation / kCycleTime) + later;
     for (long i = 0; i < preparation; ++i) {
       putBall(situation, Vector2::Zero());
       step();
@@ -190,7 +194,7 @@ struct GameTrial::Implementation {
 
 GameTrial::GameTrial(const sim::Settings& settings, const GameSituation& situation, std::uint64_t seed)
     : implementation_(std::make_unique<Implementation>(settings, situation, seed)) {
-  implementation_->prepare(situation);
+  implementation_->prepare(situation, seed);
   implementation_->begin(situation);
 }
 GameTrial::~GameTrial() = default;

@@ -22,6 +22,7 @@ class TrialStage final : public KickStage {
   world::BallMotion ball() const override { return {trial_.ball(), trial_.ballVelocity()}; }
   bool down() const override { return trial_.down(0); }
   bool selfCollided() const override { return trial_.fouls(0, sim::FoulType::SelfCollision) > 0; }
+  bool playsOn() const override { return trial_.simulation().match().playMode == protocol::PlayMode::PlayOn; }
 
  private:
   GameTrial trial_;
@@ -59,6 +60,7 @@ class ServerStage final : public KickStage {
   world::BallMotion ball() const override { return body_.ball(); }
   bool down() const override { return body_.down(); }
   bool selfCollided() const override { return body_.selfCollisions() > selfCollisionsBefore_; }
+  bool playsOn() const override { return body_.playsOn(); }
 
  private:
   void wait(double seconds) {

@@ -22,6 +22,8 @@ class KickStage {
   virtual bool down() const = 0;
   /// The referee has frozen limbs of the robot since the trial began, because they collided.
   virtual bool selfCollided() const = 0;
+  /// The ball is in play: in the field, where nobody has put it.
+  virtual bool playsOn() const = 0;
 };
 
 /// In this process.

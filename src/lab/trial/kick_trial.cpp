@@ -24,27 +24,33 @@ constexpr double kKickedLasts = 2.0;  // s after contact that the robot must sta
 constexpr double kRollsOut = 8.0;     // s, for a ball that flies and bounces
 constexpr int kBearings = 10;
 
-// From the contact on: what the ball does, and whether the robot stays on its feet.
+// From the contact on: what the ball does as long as it is in play, and whether the robot stays on its feet.
 void follow(KickStage& stage, const Vector2& from, const Pose2& X_WAim, Kick& kick) {
   const double contact = stage.time();
   BallFlight flight(from);
+  world::BallMotion ball = stage.ball();
+  bool inPlay = true;
   const double least = contact + kKickedLasts;
   while (stage.time() < contact + kRollsOut) {
     stage.step();
-    const world::BallMotion ball = stage.ball();
-    kick.ballSpeed = std::max(kick.ballSpeed, ball.v_FB.norm());
-    flight.note(ball);
-    const Vector2 aimed = X_WAim.inverse() * Vector2(ball.p_FB.head<2>());
-    kick.path.emplace_back(aimed.x(), aimed.y(), ball.p_FB.z());
+    // In a goal's net it would stop, and from behind a line the referee takes it back.
+    inPlay = inPlay && stage.playsOn();
+    if (inPlay) {
+      ball = stage.ball();
+      kick.ballSpeed = std::max(kick.ballSpeed, ball.v_FB.norm());
+      flight.note(ball);
+      const Vector2 aimed = X_WAim.inverse() * Vector2(ball.p_FB.head<2>());
+      kick.path.emplace_back(aimed.x(), aimed.y(), ball.p_FB.z());
+    }
     if (stage.time() < least) {
       kick.fell = kick.fell || stage.down();
       kick.selfCollided = stage.selfCollided();
     }
-    if (stage.time() > least && !world::isFlying(ball)) break;
+    if (stage.time() > least && (!inPlay || !world::isFlying(ball))) break;
   }
   flight.tell(kick);
-  // The rest of a roll is certain.
-  const Vector2 way = X_WAim.inverse() * world::restPlace(stage.ball());
+  // The rest of a roll is certain, and that of a flight nearly so.
+  const Vector2 way = X_WAim.inverse() * world::restPlace(ball);
   kick.forward = way.x();
   kick.aside = way.y();
 }

@@ -62,7 +62,8 @@ team::Action Kicker::operator()(const world::WorldState& world, const motion::Mo
 
 KickGame kickGame(const agent::AgentSettings& agent, const KickScene& scene, Random& random) {
   // Where lines and goals are as far as anywhere on average.
-  const Vector2 ball(random.uniform(-8.0, 4.0), random.uniform(-5.0, 5.0));
+  const double across = random.uniform(-5.0, 5.0);
+  const Vector2 ball(random.uniform(-8.0, 4.0), across);
   const double heading = random.uniform(-0.7, 0.7);
   KickGame game;
   game.p_FTarget = ball + scene.distance * unitVector(heading);

@@ -88,6 +88,13 @@ void rise(RobotTrial& trial, FallKind kind, Rise& result) {
   }
 }
 
+// Up to 1 and 1 to either side, turned by up to so much.
+Pose2 anyPose(Random& random, double turned) {
+  const double rotation = random.uniform(-turned, turned);
+  const double y = random.uniform(-1.0, 1.0);
+  return {random.uniform(-1.0, 1.0), y, rotation};
+}
+
 }  // namespace
 
 Rise fallAndRise(const TrialSettings& setup, FallKind kind, std::uint64_t seed) {
@@ -95,9 +102,9 @@ Rise fallAndRise(const TrialSettings& setup, FallKind kind, std::uint64_t seed) 
   own.seed = seed;
   RobotTrial trial(own);
   Random random(seed);
-  trial.settle(Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-kPi, kPi)));
+  trial.settle(anyPose(random, kPi));
   motion::WalkVelocity walk;
-  walk.velocity = Pose2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-2.0, 2.0));
+  walk.velocity = anyPose(random, 2.0);  // m/s, rad/s
   trial.run(walk, random.uniform(0.0, 1.5));
   Rise result;
   if (kind == FallKind::Side) {

@@ -15,7 +15,9 @@ namespace {
 
 using model::BodyId;
 
-constexpr double kStartHeight = 0.4;  // m, as after a beam (server facts 4.6)
+constexpr double kStartHeight = 0.4;   // m, as after a beam (server facts 4.6)
+constexpr double kOpenGround = 300.0;  // m, length and width of a field so large that nobody leaves it
+constexpr double kBallAside = 0.45;    // of the field's width: where the ball is in nobody's way
 
 }  // namespace
 
@@ -23,11 +25,17 @@ TrialSettings trialSettings(const agent::AgentSettings& settings) {
   return {agent::robotSettings(settings), {}};
 }
 
+TrialSettings onOpenGround(TrialSettings setup) {
+  setup.physics.fieldLength = setup.physics.fieldWidth = kOpenGround;
+  return setup;
+}
+
 struct RobotTrial::Implementation {
   explicit Implementation(const TrialSettings& setup)
       : physics(setup.physics), handle(physics.addRobot(setup.robotType)), robot(setup) {
     blind.vision = false;
-    physics.setBallPosition({0.0F, -9.0F, static_cast<float>(model::kBallRadius)});
+    const double aside = kBallAside * setup.physics.fieldWidth;
+    physics.setBallPosition(Vector3(0.0, -aside, model::kBallRadius).cast<float>());
   }
 
   void sense() {

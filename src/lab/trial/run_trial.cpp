@@ -14,8 +14,7 @@ namespace nonet::lab {
 
 namespace {
 
-constexpr double kOpenGround = 300.0;  // m, length and width of a field so large that nobody leaves it
-constexpr double kExploded = 140.0;    // m from its middle
+constexpr double kExploded = 140.0;  // m from its middle
 
 constexpr double kRunTime = 2.5;        // s
 constexpr double kFastAfter = 1.5;      // s
@@ -42,8 +41,8 @@ int cyclesIn(double seconds) {
   return static_cast<int>(std::lround(seconds / kCycleTime));
 }
 
-TrialSettings onOpenGround(TrialSettings setup, std::uint64_t seed) {
-  setup.physics.fieldLength = setup.physics.fieldWidth = kOpenGround;
+TrialSettings openGround(TrialSettings setup, std::uint64_t seed) {
+  setup = onOpenGround(std::move(setup));
   setup.seed = seed;
   return setup;
 }
@@ -51,10 +50,7 @@ TrialSettings onOpenGround(TrialSettings setup, std::uint64_t seed) {
 class Runner {
  public:
   Runner(const TrialSettings& setup, std::uint64_t seed)
-      : random_(Random(seed).fork(9)), trial_(onOpenGround(setup, seed)) {
-    trial_.physics().setBallPosition(
-        {0.0F, static_cast<float>(-kAway * 3.0), static_cast<float>(model::kBallRadius)});
-  }
+      : random_(Random(seed).fork(9)), trial_(openGround(setup, seed)) {}
 
   RunOutcome run() {
     begin();

@@ -79,7 +79,8 @@ GameSituation situationOf(const agent::AgentSettings& agent, const Shot& shot, R
   goalie.agent = agent;
   goalie.agent.unum = 1;
   goalie.X_WR = team::guardPlace(shot.p_WB.head<2>(), world::FieldGeometry{}, agent.parameters.team.goalie);
-  goalie.X_WR.translation += onCircle(random.uniform(0.0, kMisplaced), random.uniform(-kPi, kPi));
+  const double misplaced = random.uniform(-kPi, kPi);
+  goalie.X_WR.translation += onCircle(random.uniform(0.0, kMisplaced), misplaced);
   GameSituation situation;
   situation.players = {goalie, opponentBehind(agent, shot)};
   situation.ball = shot.p_WB.head<2>();

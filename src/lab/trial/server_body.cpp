@@ -101,6 +101,7 @@ class Truth {
   const Pose3& torso() const { return torso_; }
   const world::BallMotion& ball() const { return ball_; }
   int selfCollisions() const { return selfCollisions_; }
+  bool playsOn() const { return stream_.game().playMode == protocol::PlayMode::PlayOn; }
 
  private:
   void takeBall() {
@@ -222,6 +223,9 @@ bool ServerBody::down() const {
 }
 const world::BallMotion& ServerBody::ball() const {
   return implementation_->truth.ball();
+}
+bool ServerBody::playsOn() const {
+  return implementation_->truth.playsOn();
 }
 int ServerBody::selfCollisions() const {
   return implementation_->truth.selfCollisions();

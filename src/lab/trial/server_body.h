@@ -33,6 +33,8 @@ class ServerBody {
   bool down() const;
   /// Its velocity is the way between two pictures; told only while the game's clock runs.
   const world::BallMotion& ball() const;
+  /// The game goes on: the referee has put the ball nowhere.
+  bool playsOn() const;
   /// Fouls for self-collision that the referee has given until then.
   int selfCollisions() const;
 

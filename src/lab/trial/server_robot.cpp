@@ -1,5 +1,8 @@
 // A robot on a server whose walk is measured.
+#include <fmt/format.h>
+
 #include "nonet/lab/trial/measured_robot.h"
+#include "nonet/model/ball.h"
 
 #include "lab/trial/server_body.h"
 
@@ -11,7 +14,8 @@ class ServerRobot final : public MeasuredRobot {
  public:
   ServerRobot(const TrialSettings& setup, const ServerAddress& address) : body_(setup, address) {
     body_.train("(playMode PlayOn)");
-    body_.train("(ball (pos 0 -9.5 0.042)(vel 0 0 0))");
+    body_.train(fmt::format("(ball (pos {} {} {})(vel 0 0 0))", kMeasuredRobotBall.x(),
+                            kMeasuredRobotBall.y(), model::kBallRadius));
     step({});
   }
 

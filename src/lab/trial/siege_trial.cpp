@@ -69,9 +69,10 @@ Vector2 placeOfAttacker(std::size_t i, const Vector2& ball, const Vector2& goal,
 GameSituation drawSiege(const agent::AgentSettings& agent, const Defence& defence, const Vector2& goal,
                         Random& random) {
   GameSituation situation;
-  situation.ball =
-      goal - Vector2(random.uniform(kNearestBall, kFarthestBall), random.uniform(-kBallAside, kBallAside));
-  situation.ballVelocity = random.uniform(0.0, kBallRolls) * unitVector(random.uniform(-kPi, kPi));
+  const double aside = random.uniform(-kBallAside, kBallAside);
+  situation.ball = goal - Vector2(random.uniform(kNearestBall, kFarthestBall), aside);
+  const double direction = random.uniform(-kPi, kPi);
+  situation.ballVelocity = random.uniform(0.0, kBallRolls) * unitVector(direction);
   const Vector2& ball = situation.ball;
   FreePlaces places;
   const auto facingBall = [&ball](const Vector2& place) { return Pose2(place, directionOf(ball - place)); };

@@ -21,7 +21,6 @@ using Kind = CourseLeg::Kind;
 using motion::MotionRequest;
 
 constexpr double kFarthest = 100.0;         // m, nobody walks there
-constexpr double kOpenGround = 300.0;       // m, length and width of a field so large that nobody leaves it
 constexpr double kReached = 0.15;           // m
 constexpr double kTurned = 0.1745;          // rad
 constexpr double kPlaced = 0.35;            // rad
@@ -113,8 +112,10 @@ CourseItem weave(Random& random, double side) {
 
 CourseItem extremeChanges(Random& random, double side) {
   CourseItem item{"extreme changes", {}};
-  for (int i = 0; i < 5; ++i)
-    item.legs.push_back(walk(polar(3.0, side * random.uniform(1.5, kPi)), random.uniform(0.35, 0.8)));
+  for (int i = 0; i < 5; ++i) {
+    const double time = random.uniform(0.35, 0.8);
+    item.legs.push_back(walk(polar(3.0, side * random.uniform(1.5, kPi)), time));
+  }
   item.legs.push_back(stop(0.6));
   return item;
 }
@@ -122,7 +123,8 @@ CourseItem extremeChanges(Random& random, double side) {
 CourseItem quickMoves(Random& random, double side) {
   CourseItem item{"quick moves and stops", {}};
   for (int i = 0; i < 3; ++i) {
-    item.legs.push_back(walk(polar(3.0, side * random.uniform(-kPi, kPi)), random.uniform(0.3, 0.6)));
+    const double time = random.uniform(0.3, 0.6);
+    item.legs.push_back(walk(polar(3.0, side * random.uniform(-kPi, kPi)), time));
     item.legs.push_back(stop(random.uniform(0.2, 0.5)));
   }
   return item;
@@ -154,22 +156,16 @@ CourseItem turns(Random& random, double side) {
 CourseItem places(Random& random, double side) {
   CourseItem item{"places", {}};
   for (int i = 0; i < 4; ++i) {
-    const Vector2 target = polar(random.uniform(0.4, 2.5), random.uniform(-kPi, kPi));
+    const double bearing = random.uniform(-kPi, kPi);
+    const Vector2 target = polar(random.uniform(0.4, 2.5), bearing);
     item.legs.push_back(place(target, side * random.uniform(-kPi, kPi), 1.5 + 2.0 * target.norm()));
     if (i % 2 == 1) item.legs.push_back(stop(0.3));
   }
   return item;
 }
 
-// The course wanders off by more than half a field. Walking into a goal or a ball is another matter than
-// walking: the goals stand out of reach and so does the ball.
-TrialSettings onOpenGround(TrialSettings setup) {
-  setup.physics.fieldLength = kOpenGround;
-  setup.physics.fieldWidth = kOpenGround;
-  return setup;
-}
-
-// One robot on the course. After a fall a fresh one stands where the old one fell.
+// One robot on the course, which wanders off by more than half a field. After a fall a fresh one stands where
+// the old one fell.
 class Walker {
  public:
   Walker(const TrialSettings& setup, std::uint64_t seed, const CourseSettings& settings)
@@ -192,8 +188,12 @@ class Walker {
  private:
   void stand(const Pose2& X_FR) {
     trial_ = std::make_unique<RobotTrial>(setup_);
-    trial_->physics().setBallPosition(Vector3(0.0, -kFarthest, setup_.physics.ballRadius).cast<float>());
     trial_->settle(X_FR);
+  }
+
+  Vector2 anyWay() {
+    const double y = random_.normal();
+    return {random_.normal(), y};
   }
 
   void walkLeg(const CourseLeg& leg) {
@@ -211,8 +211,7 @@ class Walker {
     double drift = 0.0;
     Pose2 at = start;
     for (int i = 0; i < cycles && !reached; ++i) {
-      if (leg.noise > 0.0 && i % std::lround(kNoiseHold / kCycleTime) == 0)
-        noise = leg.noise * Vector2(random_.normal(), random_.normal());
+      if (leg.noise > 0.0 && i % std::lround(kNoiseHold / kCycleTime) == 0) noise = leg.noise * anyWay();
       if (settings_.push > 0.0 && random_.uniform() < kCycleTime / kPushEvery) push();
       if (settings_.changeSets && random_.uniform() < kCycleTime / kChangeEvery) changeSet();
       trial_->step(request(leg, at, target + noise, start.rotation, heading));

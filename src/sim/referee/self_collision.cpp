@@ -173,14 +173,20 @@ void Fouls::judgeSelfCollisions(TeamSide side) {
 void Fouls::selfCollision(const Player& player, BodyId first, BodyId second) {
   const Settings& s = c_.settings;
   const float now = c_.game.time();
-  const std::string who =
-      fmt::format("Team {} Pl {}", std::string_view(c_.game.teamName(player.side)), player.unum);
+  const auto who = [&] {
+    return fmt::format("Team {} Pl {}", std::string_view(c_.game.teamName(player.side)), player.unum);
+  };
   if (s.printSelfCollisions) {
-    spdlog::debug("self-collision at {:.2f}: {} {} {}", now, who, model::bodyName(first),
+    spdlog::debug("self-collision at {:.2f}: {} {} {}", now, who(), model::bodyName(first),
                   model::bodyName(second));
   }
-  writeSelfCollision(
-      fmt::format("Collision GTime {} {} {} {}", now, who, model::bodyName(first), model::bodyName(second)));
+  if (s.writeSelfCollisionsToFile) {
+    writeSelfCollision(fmt::format("Collision GTime {} {} {} {}", now, who(), model::bodyName(first),
+                                   model::bodyName(second)));
+  }
+  const auto writeFoul = [&] {
+    if (s.writeSelfCollisionsToFile) writeSelfCollision(fmt::format("Foul {} GTime {}", who(), now));
+  };
   if (!s.foulOnSelfCollisions) return;
 
   if (s.selfCollisionBeamPenalty) {
@@ -188,7 +194,7 @@ void Fouls::selfCollision(const Player& player, BodyId first, BodyId second) {
     if (now - record.lastSelfCollision <= s.selfCollisionBeamCooldownTime) return;
     record.lastSelfCollision = now;
     countFoul(record, FoulType::SelfCollision);
-    writeSelfCollision(fmt::format("Foul {} GTime {}", who, now));
+    writeFoul();
     return;
   }
   std::vector<JointId> joints;
@@ -207,11 +213,10 @@ void Fouls::selfCollision(const Player& player, BodyId first, BodyId second) {
   }
   if (!foul) return;
   c_.recordFoul(FoulType::SelfCollision, player);
-  writeSelfCollision(fmt::format("Foul {} GTime {}", who, now));
+  writeFoul();
 }
 
 void Fouls::writeSelfCollision(const std::string& line) {
-  if (!c_.settings.writeSelfCollisionsToFile) return;
   if (!selfCollisionFile_.is_open()) {
     selfCollisionFile_.open(c_.settings.selfCollisionRecordFilename, std::ios::app);
   }

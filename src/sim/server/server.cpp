@@ -137,14 +137,13 @@ void Server::Implementation::giveUpWaiting() {
 void Server::Implementation::deliverCommands() {
   for (const auto& link : agents) {
     if (link->agent == kNoAgent) continue;
-    if (mustWaitToBeBorn(*link)) {
-      link->held = true;
-      continue;
-    }
+    const bool waits = mustWaitToBeBorn(*link);
+    link->held = link->held || waits;
     // In lock-step a cycle takes exactly what belongs to the answer, however fast the rest arrives.
     bool more = true;
     while (more && !link->inbox.empty()) {
       const AgentLink::Received& received = link->inbox.front();
+      if (waits && received.effectors.scene) break;
       if (received.effectors.syn && received.afterSense == link->sensesSent) {
         if (link->givenUp) spdlog::info("server: {} answers again", describe(*link));
         link->givenUp = false;
@@ -164,8 +163,10 @@ void Server::Implementation::deliverCommands() {
 // until the one before has its place, or has had time to get it.
 bool Server::Implementation::mustWaitToBeBorn(const AgentLink& link) {
   constexpr long kPatience = 10;  // cycles; a handshake takes five
-  const bool asks = link.sensesSent == 0 && !link.inbox.empty() && link.inbox.front().effectors.scene;
-  if (!asks || link.agent == newborn) return false;
+  const bool asks =
+      std::any_of(link.inbox.begin(), link.inbox.end(),
+                  [](const AgentLink::Received& received) { return received.effectors.scene.has_value(); });
+  if (link.sensesSent > 0 || !asks || link.agent == newborn) return false;
   if (newborn != kNoAgent && cycles - bornAt < kPatience) {
     for (const AgentInfo& info : simulation.agents()) {
       if (info.handle == newborn && info.unum == 0) return true;

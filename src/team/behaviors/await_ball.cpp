@@ -32,6 +32,7 @@ std::optional<Action> awaitBall(const Situation& s) {
   const BallHandlingParameters& p = s.parameters.ball;
   const double speed = s.world.ball.v_FB.head<2>().norm();
   if (!s.play || s.play->wait || s.play->use == KickUse::Never || speed < p.kickRolling) return std::nullopt;
+  if (atOwnGoal(s.world)) return std::nullopt;
   const double time = s.forecast.free().slowAfter(p.kickRolling);
   const Vector2 rest = s.forecast.at(time);
   if (!s.world.field.holds(rest) || opponentsTime(s, rest) < time + p.awaitMargin) return std::nullopt;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nonet/math/direction.h"
 #include "nonet/team/behaviors.h"
 
 #include "team/behaviors/push.h"
@@ -51,7 +52,24 @@ std::optional<Action> steer(const Situation& s) {
   return Action(walk, "steered");
 }
 
+// Right before the own goal: as the robot stands, if the ball then goes neither into the goal nor before it.
+std::optional<Action> pushAway(const Situation& s) {
+  constexpr double kAhead = 0.5;  // rad, of the ball from where the robot faces
+  constexpr double kClear = 0.5;  // m beside a post
+  const Vector2& ball = s.play->ball;
+  if (!atOwnGoal(s.world) || s.setPlay || std::abs(directionOf(ball)) > kAhead) return std::nullopt;
+  const world::FieldGeometry& field = s.world.field;
+  const Vector2 away = (s.ball() - s.world.self.X_FR.translation).normalized();
+  const double toSide = (field.post() + kClear - std::abs(s.ball().y())) / std::max(std::abs(away.y()), 1e-6);
+  const bool crosses = away.x() < 0.0 && s.ball().x() + toSide * away.x() < -field.goalLine();
+  const bool inwards = away.y() * s.ball().y() < 0.0 && away.x() < 0.3;
+  if (crosses || inwards) return std::nullopt;
+  const Pose2 through(ball + s.parameters.ball.dribbleThrough * ball.normalized(), directionOf(ball));
+  return Action(motion::WalkTo{through, false}, "away from the goal");
+}
+
 std::optional<Action> runThrough(const Situation& s) {
+  if (const auto away = pushAway(s)) return away;
   const BallPlay& play = *s.play;
   const BallHandlingParameters& p = s.parameters.ball;
   const bool aligned = play.behind > p.alignedBehind && std::abs(play.direction) < p.alignedAngle &&

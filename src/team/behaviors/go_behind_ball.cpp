@@ -16,6 +16,8 @@ namespace nonet::team {
 
 namespace {
 
+constexpr double kTurned = 0.5;  // rad
+
 // Somebody stands on the straight way from here to this place (robot frame, m).
 bool blocked(const Situation& s, const Vector2& place) {
   const Pose2 X_RF = s.world.self.X_FR.inverse();
@@ -66,7 +68,9 @@ BallCurve curveAround(const Situation& s, const BallPlay& play, double turned) {
   const BallHandlingParameters& p = s.parameters.ball;
   const bool careful = play.behind > 0.0 && pushRollsOut(s);
   const double share = std::min(std::abs(turned) / p.turnedAngle, 1.0);
-  const double behind = careful ? p.standOff : p.behindBall + share * p.turnedRoom;
+  // A second touch of a set piece costs it.
+  const bool turns = s.setPlay && std::abs(turned) > kTurned;
+  const double behind = careful || turns ? p.standOff : p.behindBall + share * p.turnedRoom;
   return {behind, std::max(p.circleRadius, behind), p.circleOpen};
 }
 

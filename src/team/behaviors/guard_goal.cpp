@@ -7,9 +7,12 @@ namespace nonet::team {
 std::optional<Action> guardGoal(const Situation& s) {
   if (s.role != Role::Goalie) return std::nullopt;
   const GoalieParameters& p = s.parameters.goalie;
-  // A ball on its way to the goal is met where it will pass, by steps aside: the eyes stay on it.
-  if (const std::optional<ComingShot> shot = comingShot(s))
-    return Action(motion::WalkVelocity{Pose2(0.0, p.meetRate * shot->aside, 0.0)}, "meet the ball");
+  // A ball on its way to the goal is met where it will pass, by steps aside and back: the eyes stay on it.
+  if (const std::optional<ComingShot> shot = comingShot(s)) {
+    const Vector2 steps = p.meetRate * Vector2(-shot->back, shot->aside);
+    return Action(motion::WalkVelocity{Pose2(steps, 0.0)},
+                  shot->back > 0.0 ? "under the lob" : "meet the ball");
+  }
   Caution caution;
   caution.robots = p.room;
   caution.ball = s.mayTouch ? 0.0 : p.room;

@@ -3,6 +3,8 @@
 #include <limits>
 #include <variant>
 
+#include "nonet/math/angle.h"
+#include "nonet/math/direction.h"
 #include "nonet/team/ball_choice.h"
 #include "nonet/team/behaviors.h"
 
@@ -38,7 +40,9 @@ bool beyondGoalLine(const Situation& s, const Vector2& end) {
 }
 
 bool endsInGoal(const Situation& s, const BallPlay& play, const Vector2& end) {
-  return s.mayScore && beyondGoalLine(s, end) && betweenPosts(s, goalCrossing(s, play));
+  if (!s.mayScore || !beyondGoalLine(s, end) || !betweenPosts(s, goalCrossing(s, play))) return false;
+  const ShotParameters& p = s.parameters.shot;
+  return hitsGoal(s.world, directionOf(play.p_FTarget - s.ball()), p.spread) >= p.hits;
 }
 
 bool endsInField(const Situation& s, const BallPlay& play, const Vector2& end) {
@@ -71,17 +75,25 @@ bool canKick(const Situation& s, bool there, double room) {
          s.nearestOpponent >= (there ? p.kickPress : 1.0) * room && !mateAtBall(s);
 }
 
-bool mayKick(const Situation& s, const BallPlay& play, bool there) {
+// How far a kick has come: the farther, the less is asked of who is where.
+struct Stage {
+  bool there = false;  // the robot is in its place
+  bool held = false;   // it is on its last steps there
+};
+
+bool mayKick(const Situation& s, const BallPlay& play, const Stage& stage) {
   const BallHandlingParameters& p = s.parameters.ball;
   const KickUse use = s.play->use;
+  const bool there = stage.there;
   const double contact = contactTime(s, play);
-  const double soon = there ? p.kickOpponentDistance : p.kickRoom + p.kickRoomPace * contact;
+  const double wait = stage.held ? 0.0 : p.kickRoomPace * contact;
+  const double soon = there ? p.kickOpponentDistance : p.kickRoom + wait;
   const double room = s.undisturbed > contact ? 0.0 : std::min(p.kickOpponentDistance, soon);
   if (!canKick(s, there, room)) return false;
   if (use == KickUse::Clear) return true;
   const Vector2 restsAt = kickEnd(s, play);
   if (!endsInField(s, play, restsAt) || mateBars(s.world, s.ball(), restsAt)) return false;
-  if (there) return true;
+  if (there || stage.held) return true;
   if (!staysOurs(s, play, restsAt)) return false;
   const Vector2 from = s.ball();
   const Vector2 way = play.p_FTarget - from;
@@ -100,6 +112,15 @@ bool goesAside(const Situation& s, std::string_view kick) {
   return std::any_of(s.motion.kicks.begin(), s.motion.kicks.end(), [&](const motion::KickOption& option) {
     return option.name == kick && !option.head.isStraight();
   });
+}
+
+// The robot is on its last steps to a kick, and about that direction is still wanted.
+bool isHeld(const Situation& s) {
+  const BallHandlingParameters& p = s.parameters.ball;
+  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
+  if (kick == nullptr || kick->stops || s.play->ball.norm() > p.kickHold) return false;
+  const double wanted = directionOf(s.play->p_FTarget - s.ball());
+  return std::abs(angleDifference(wanted, *presentKick(s))) < p.kickHoldAngle;
 }
 
 // In the place for a kick, which is not one to the side.
@@ -132,11 +153,13 @@ std::optional<Action> shoot(const Situation& s) {
 std::optional<Action> kick(const Situation& s) {
   if (!s.play || s.motion.kicks.empty()) return std::nullopt;
   const bool there = isThere(s);
-  const bool straight = mayKick(s, *s.play, there);
+  const bool held = isHeld(s);
+  const bool asideHeld = held && goesAside(s, std::get<motion::KickTo>(s.motion.request).kick.view());
+  const bool straight = mayKick(s, *s.play, {there, held && !asideHeld});
   if (straight && there) return kickAction(s, *s.play, "in place");
-  const std::optional<BallPlay> aside = playAside(s, *s.play, straight);
+  const std::optional<BallPlay> aside = atOwnGoal(s.world) ? std::nullopt : playAside(s, *s.play, straight);
   const bool thereAside = aside && s.motion.kickInPlace() && s.motion.kick.name == aside->kick;
-  if (aside && mayKick(s, *aside, thereAside)) {
+  if (aside && mayKick(s, *aside, {thereAside, asideHeld})) {
     if (thereAside) return kickAction(s, *aside, "in place");
     return isBehind(s, *aside) ? kickAction(s, *aside, "line up aside") : goBehind(s, *aside);
   }

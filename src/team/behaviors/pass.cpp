@@ -13,7 +13,10 @@ bool canPass(const Situation& s) {
   const BallHandlingParameters& ball = s.parameters.ball;
   if (!p.use || !ball.kick || !s.play || s.play->use != KickUse::IfFree) return false;
   if (!world::isOpenPlay(s.phase()) || s.world.ball.v_FB.head<2>().norm() > ball.kickRolling) return false;
-  return s.undisturbed > 0.0 || s.nearestOpponent >= (s.motion.kickInPlace() ? ball.kickPress : 1.0) * p.room;
+  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
+  const bool under = kick != nullptr && kick->stops;
+  const double share = s.motion.kickInPlace() ? ball.kickPress : under ? p.press : 1.0;
+  return s.undisturbed > 0.0 || s.nearestOpponent >= share * p.room;
 }
 
 }  // namespace

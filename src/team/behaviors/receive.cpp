@@ -46,6 +46,7 @@ std::optional<Action> receive(const Situation& s) {
   if (!p.use || !s.play || s.play->wait || !world::isOpenPlay(s.phase())) return std::nullopt;
   const Vector2 velocity = s.ballVelocity();
   const Vector2& ball = s.play->ball;
+  if (ball.norm() < p.nearest) return std::nullopt;
   const double comes = -velocity.dot(ball) / std::max(ball.norm(), 1e-6);
   if (comes < p.speed) return std::nullopt;
   const std::optional<Meeting> meeting = meetingOf(ball, velocity.normalized(), s);

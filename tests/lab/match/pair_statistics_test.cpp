@@ -15,14 +15,22 @@ TEST(PairSummary, MeanErrorAndIntervalOfAKnownSample) {
   // By hand: mean 3, variance 2.5, standard error sqrt(2.5 / 5); t with four degrees of freedom at 97.5 %:
   // 2.776445 (any printed table).
   const std::vector<double> values = {1.0, 2.0, 3.0, 4.0, 5.0};
-  const PairSummary summary = summarizePairs(values);
+  const PairSummary summary = summarizePairs(values, 0.5);
   EXPECT_EQ(summary.pairs, 5);
   EXPECT_DOUBLE_EQ(summary.mean, 3.0);
   EXPECT_NEAR(summary.standardError, std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(summary.high - summary.mean, 2.776445 * std::sqrt(0.5), 1e-5);
   EXPECT_NEAR(summary.mean - summary.low, 2.776445 * std::sqrt(0.5), 1e-5);
-  EXPECT_EQ(summarizePairs({}).pairs, 0);
-  EXPECT_EQ(summarizePairs(std::vector<double>{2.0}).high, 2.0);
+  EXPECT_EQ(summarizePairs({}, 0.5).pairs, 0);
+  EXPECT_EQ(summarizePairs(std::vector<double>{2.0}, 0.5).high, 2.0);
+}
+
+// Two pairs of goalless games are no proof that the teams are equal: as if one of them had ended with a goal,
+// sqrt(0.5^2 / 1 / 2) with one degree of freedom, t = 12.7062.
+TEST(PairSummary, EqualPairsAreNotWithoutSpread) {
+  const PairSummary summary = summarizePairs(std::vector<double>{0.0, 0.0}, 0.5);
+  EXPECT_NEAR(summary.standardError, 0.5 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(summary.high, 12.7062 * 0.5 / std::sqrt(2.0), 1e-3);
 }
 
 TEST(SequentialBounds, AreReadOrExplained) {

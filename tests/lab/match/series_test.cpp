@@ -281,7 +281,7 @@ TEST(Series, AGameDuringWhichASideChangedDoesNotCount) {
 TEST(Series, TheIntervalOfOnePairIsNotKnown) {
   SeriesResult result;
   result.pairs = {1.0};
-  result.difference = summarizePairs(result.pairs);
+  result.difference = summarizePairs(result.pairs, 0.5);
   EXPECT_TRUE(result.differenceJson().at("interval_95").is_null());
   EXPECT_TRUE(result.differenceJson().at("standard_error").is_null());
 }
@@ -374,7 +374,7 @@ TEST(Series, ATeamAgainstItselfInThisProcess) {
   const SeriesResult result = series.finish();
   EXPECT_EQ(result.games, 4);
   EXPECT_EQ(result.difference.mean, 0.0);
-  EXPECT_EQ(result.difference.standardError, 0.0);
+  EXPECT_EQ(result.pairs, (std::vector<double>{0.0, 0.0}));
 }
 
 // What --set takes as a number comes to the agents of a game as that number, however it is written.

@@ -137,6 +137,27 @@ TEST_P(Statistics, APassToAMate) {
   EXPECT_EQ(s.statistics.team(1).passesTried, 0);
 }
 
+// The ball leaves the foot between two pictures, so it is still getting faster when it comes past a mate.
+TEST_P(Statistics, AKickPastAMateIsOneTouch) {
+  s.robot(0, 5, -0.2, 0.0);
+  s.robot(0, 6, 0.5, 0.3);
+  s.robot(1, 3, 3.0, 0.0);
+  s.ballAt(0.0, 0.0);
+  s.run(1.0);
+  s.velocity = Vector2(2.0, 0.0);
+  s.run(1.0 / GetParam());
+  s.velocity = Vector2(4.0, 0.0);
+  s.run(1.2);
+  s.velocity = Vector2(0.0, -0.6);  // from the opponent's foot
+  s.run(1.0);
+  const TeamStatistics& team = s.statistics.team(0);
+  ASSERT_EQ(team.kicks.size(), 1U);
+  EXPECT_EQ(team.kicks[0].unum, 5);
+  EXPECT_EQ(team.kicks[0].outcome, "opponent");
+  EXPECT_NEAR(team.kicks[0].speed, 4.0, 0.5);
+  EXPECT_EQ(team.players.at(6).touches, 0);
+}
+
 TEST_P(Statistics, KicksAreCountedByName) {
   kickTo(s, 0, 6);
   s.robot(0, 5, -0.2, 0.0).kick = "kick_power";

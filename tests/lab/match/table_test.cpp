@@ -61,7 +61,7 @@ SeriesResult resultOf(std::vector<double> pairs, int wins, int losses) {
   result.wins = wins;
   result.losses = losses;
   result.ties = result.games - wins - losses;
-  result.difference = summarizePairs(result.pairs);
+  result.difference = summarizePairs(result.pairs, 0.5);
   return result;
 }
 

@@ -37,6 +37,30 @@ TEST(Kicks, ReachABallThatTheRobotHasPushed) {
   EXPECT_LE(fell, 2);
 }
 
+// The referee takes a ball back that has crossed a line: that is no part of the kick, which is worth what it
+// would have been elsewhere.
+TEST(Kicks, EndWhereTheBallLeavesTheField) {
+  const agent::AgentSettings agent = agentOfType(3);
+  sim::Settings server;
+  server.quickSolver = true;
+  constexpr double kFastest = 20.0;  // m/s
+  int left = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    KickScene scene;
+    scene.kick = "kick_long";
+    scene.start = 0.5;
+    const Kick kick = kickOnce(agent, server, scene, seed);
+    if (!kick.contact || kick.path.size() < 2) continue;
+    for (std::size_t i = 1; i < kick.path.size(); ++i)
+      EXPECT_LT((kick.path[i] - kick.path[i - 1]).norm(), kFastest * kCycleTime) << seed;
+    // Seconds after the contact a ball in the field has nearly come to rest.
+    const Vector2 last = kick.path.back().head<2>();
+    const Vector2 rest(kick.forward, kick.aside);
+    left += (rest - last).norm() > 3.0 ? 1 : 0;
+  }
+  EXPECT_GT(left, 0) << "no ball left the field";
+}
+
 struct KickCounts {
   int good = 0;  // of 20: so far and so straight as asked for
   int fell = 0;

@@ -18,7 +18,9 @@ struct PairSummary {
   double low = 0.0;            // 95 % interval of Student's t; equal to `mean` with fewer than two pairs
   double high = 0.0;
 };
-PairSummary summarizePairs(std::span<const double> values);
+/// Equal pairs are no pairs without spread: they count as if one of them were `resolution` off, the value of
+/// one goal in one pair.
+PairSummary summarizePairs(std::span<const double> values, double resolution);
 
 /// Two claims about the true mean: at most `low`, at least `high`, goals per ten minutes, low < high.
 struct SequentialBounds {

@@ -48,6 +48,8 @@ std::vector<std::string> variantsIn(const std::string& dataFolder);
 /// NONET_DATA; empty: none. An older program must not play with the data of this one.
 std::string dataBeside(const std::string& executable);
 
+/// A hash of what the files hold, 16 hexadecimal digits.
+std::string fingerprintOfFiles(const std::vector<std::string>& files);
 /// A hash of what decides how the side plays, as far as files tell: the executable, its params/ and skills/,
 /// the parameter files; empty for a command. `dataFolder`: of this program.
 std::string fingerprintOf(const SideSettings& side, const std::string& dataFolder);

@@ -174,6 +174,7 @@ class MatchStatistics {
   void sampleDuel(const Frame& frame);
   void touched(const Frame& frame, const FrameRobot& robot, const Vector2& velocity, double before);
   void refreshTouch(const Frame& frame, const Vector2& velocity);
+  bool sameContact(const Frame& frame, const FrameRobot& robot, const Vector2& velocity, double step) const;
   /// The ball's way after the last touch is over: the next touch, a goal, out, or the end.
   void closeTouch(const std::string& outcome, const Vector2& p_WEnd, TeamIndex nextTeam, int nextUnum);
   bool isShot(const Touch& touch, double margin) const;

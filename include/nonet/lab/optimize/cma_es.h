@@ -21,6 +21,9 @@ struct CmaEsSettings {
   std::uint64_t seed = 1;
   Eigen::VectorXd low;  // box, empty: unbounded. Samples outside are reflected into it.
   Eigen::VectorXd high;
+  double leastStep = 1e-12;  // share of sigma: a run ends when no coordinate deviates by more
+  Eigen::VectorXd startLow;  // where restarts begin; empty: anywhere in the box
+  Eigen::VectorXd startHigh;
 };
 
 /// Why a run should end; None while it goes on.
@@ -100,8 +103,8 @@ enum class RestartScheme : std::uint8_t { None, Ipop, Bipop };
 
 class RestartingCmaEs {
  public:
-  /// Restarts begin at a uniform point of [low, high] of the settings if there is a box, else at `start` plus
-  /// a normal step of the initial sigma.
+  /// Restarts begin at a uniform point of [startLow, startHigh] of the settings, or else of their box, or
+  /// else at `start` plus a normal step of the initial sigma.
   RestartingCmaEs(const Eigen::VectorXd& start, const CmaEsSettings& settings, RestartScheme scheme);
 
   /// Begins the next run if the last tell() ended one: until then run() is the one that was told.

@@ -9,6 +9,9 @@
 
 namespace nonet::lab {
 
+/// Where the ball lies on a server's field meanwhile, m: in nobody's way.
+inline const Vector2 kMeasuredRobotBall{0.0, -9.5};
+
 class MeasuredRobot {
  public:
   virtual ~MeasuredRobot() = default;

@@ -22,6 +22,9 @@ struct TrialSettings : agent::RobotSettings {
 /// The body and mind of that agent, on the exact physics.
 TrialSettings trialSettings(const agent::AgentSettings& settings);
 
+/// With goals and ball out of reach: to walk into one is another matter than walking.
+TrialSettings onOpenGround(TrialSettings setup);
+
 class RobotTrial {
  public:
   explicit RobotTrial(const TrialSettings& setup);

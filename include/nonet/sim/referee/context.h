@@ -144,9 +144,10 @@ struct RefereeContext {
   }
 };
 
-/// Settings are seconds, counters count cycles.
+/// Settings are seconds, counters count cycles. The server keeps seconds in 32 bits: 0.2 s are a little more
+/// than 10 cycles there.
 inline double cycles(double seconds) {
-  return seconds / kCycleTime;
+  return static_cast<double>(static_cast<float>(seconds)) / kCycleTime;
 }
 
 inline float horizontalDistance(const Vector3f& a, const Vector3f& b) {

@@ -17,7 +17,10 @@ namespace nonet::sim {
 /// The handshake of one agent.
 class Lobby {
  public:
-  Lobby(const Settings& settings, std::uint64_t seed) : settings_(settings), seed_(seed) {}
+  Lobby(const Settings& settings, std::uint64_t seed) : settings_(settings), seed_(seed) {
+    settings_.threads = 1;  // for one robot
+    settings_.threadPatience = 0;
+  }
 
   /// One message of the agent. Returns the sense message to answer with; nullptr if there is none (no scene
   /// has come yet, or init has: then the agent waits for the match). Valid until the next call.

@@ -51,7 +51,12 @@ void describeField(Self& s, Visitor&& visit) {
   a.length("BorderSize", s.borderSize, "Width of the border around the field, only for monitors");
   visit({"BallRadius", Unit::Metre, {0.001, 1.0}, fixed, "Radius of the ball"}, s.ballRadius);
   visit({"BallMass", Unit::Kilogram, {0.0001, 100.0}, fixed, "Mass of the ball"}, s.ballMass);
-  a.length("AgentRadius", s.agentRadius, "Free space around the places to which the referee moves robots");
+  visit({"AgentRadius",
+         Unit::Metre,
+         {0.1, kLength.high},
+         fixed,
+         "Free space around the places to which the referee moves robots"},
+        s.agentRadius);
   visit({"Keepaway", Unit::None, {}, fixed, "Keepaway instead of football"}, s.keepaway);
   visit({"KeepawayCenterX", Unit::Metre, position, fixed, "Centre of the keepaway area, along the field"},
         s.keepawayCenterX);
