@@ -106,6 +106,7 @@ launch() {
 forgetEnded() {
   {
     flock 8
+    [ -f "$pids" ] || return 0
     local pid time name alive=()
     while read -r pid time name; do
       isOurs "$pid" "$time" && alive+=("$pid $time $name")

@@ -35,5 +35,9 @@ for entry in "${running[@]}"; do
   # shellcheck disable=SC2086
   if isOurs $entry; then kill -KILL "${entry%% *}" 2>/dev/null || true; fi
 done
+for entry in "${running[@]}"; do
+  # shellcheck disable=SC2086
+  for ((i = 0; i < 10; i++)); do isOurs $entry || break; sleep 0.1; done
+done
 forgetEnded
 echo "stopped ${#running[@]} agents${only:+ of team $only}"

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "nonet/math/direction.h"
+#include "nonet/team/ball_choice.h"
 #include "nonet/team/own_area.h"
 #include "nonet/world/ball_law.h"
 
@@ -31,11 +33,14 @@ double ballToGoal(const Situation& s) {
 std::optional<ComingShot> metBehind(const Situation& s, const world::BallMotion& seen) {
   const GoalieParameters& p = s.parameters.goalie;
   const double toLine = s.world.self.X_FR.translation.x() + s.world.field.goalLine();
+  const auto* walk = std::get_if<motion::WalkVelocity>(&s.motion.request);
+  const bool stepsBack = walk != nullptr && walk->velocity.translation.x() < 0.0;
+  const double delay = stepsBack ? 0.0 : p.stepDelay;
   for (double back = kBackStep; back < toLine - kBeforeLine; back += kBackStep) {
     const auto passing = world::crossingOfLine(seen, -back);
     if (!passing) return std::nullopt;
     if (passing->height > p.standHeight) continue;
-    if (back > p.backSpeed * (passing->time - p.stepDelay)) return std::nullopt;
+    if (back > p.backSpeed * (passing->time - delay)) return std::nullopt;
     return ComingShot{passing->time, passing->y, passing->height, back};
   }
   return std::nullopt;
@@ -88,9 +93,12 @@ Vector2 clearanceTarget(const Situation& s) {
     // In the middle the ball's side is noise: what the goalie has turned to stays.
     side = std::sin(s.world.teammates[1].X_FP.rotation);
   }
+  // What is lined up stays.
+  const std::optional<double> present = presentKick(s);
+  if (s.role == Role::Goalie && !s.setPlay && present) side = std::sin(*present);
   const Vector2 target(0.0, side >= 0.0 ? p.clearanceAside : -p.clearanceAside);
   const Vector2 other(target.x(), -target.y());
-  const bool past = mateBars(s.world, s.ball(), target) && !mateBars(s.world, s.ball(), other);
+  const bool past = !s.setPlay && mateBars(s.world, s.ball(), target) && !mateBars(s.world, s.ball(), other);
   return past ? other : target;
 }
 

@@ -33,7 +33,7 @@ Obstacles obstaclesFor(const world::WorldState& world, const NavigationParameter
   Obstacles obstacles;
   const Vector2 ball = world.ball.p_FB.head<2>();
   const auto add = [&](const world::PlayerState& player, double room) {
-    if (!player.known || player.sigma > kSomewhere) return;
+    if (!player.known) return;
     if (player.fallen) room += parameters.fallenRoom;
     if (caution.duel && (player.X_FP.translation - ball).norm() < parameters.atBall)
       room = parameters.bodyRoom;
@@ -46,7 +46,7 @@ Obstacles obstaclesFor(const world::WorldState& world, const NavigationParameter
     const auto i = static_cast<std::size_t>(unum);
     if (unum != world.game.unum)
       add(world.teammates[i], unum == caution.onBall ? caution.onBallRoom : caution.robots);
-    add(world.opponents[i], caution.robots);
+    if (world.opponents[i].sigma <= kSomewhere) add(world.opponents[i], caution.robots);
   }
   if (caution.ball > 0.0 && world.ball.known) obstacles.add(ball, caution.ball);
   return obstacles;

@@ -10,12 +10,11 @@
 #include "nonet/team/pass_mode.h"
 #include "nonet/team/touch_watch.h"
 
-#include "team/behaviors/play_aside.h"
-
 namespace nonet::team {
 
 namespace {
 
+constexpr double kGoalKick = 10.0;  // m, of the goalie's longest kick, as it usually comes to rest
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Formation placesFor(const Situation& s) {
@@ -28,9 +27,9 @@ Formation placesFor(const Situation& s) {
     const Vector2 home = world.field.ownGoal() - from;
     from += std::min(s.clearOfOpponentKick(), 0.5 * home.norm()) * home.stableNormalized();
   }
-  // Where the goalie's kick comes down.
+  // Where the goalie's kick comes down: for all the same place, whatever they see and can kick themselves.
   if (s.phase() == world::Phase::OwnGoalKick && s.parameters.ball.kick)
-    from += kickLength(s, {}) * (clearanceTarget(s) - from).normalized();
+    from += kGoalKick * (clearanceTarget(s) - from).normalized();
   // The stopper is the receiver of the own set piece, so whoever is next to that place is the stopper.
   const std::optional<Vector2> receiver = s.setPlay ? std::optional(s.setPlay->p_FReceiver) : std::nullopt;
   return formationFor(from, kFieldRoles, world.field, s.parameters.formation, s.parameters.variant,

@@ -9,11 +9,14 @@ namespace nonet::team {
 
 namespace {
 
-// One of ours on its feet is nearer to the ball than the goalie, which is busy.
+// One of ours on its feet, that plays, is nearer to the ball than the goalie, which is busy.
 bool mateIsNearer(const Situation& s) {
+  if (s.phase() == world::Phase::OwnGoalKick) return false;
   const auto& mates = s.world.teammates;
   const double own = (s.world.self.X_FR.translation - s.ball()).norm();
   return std::any_of(mates.begin() + 2, mates.end(), [&](const world::PlayerState& mate) {
+    const auto unum = static_cast<int>(&mate - mates.data());
+    if (unum == s.banned || s.hasGone(unum)) return false;
     return mate.known && !mate.fallen && (mate.X_FP.translation - s.ball()).norm() < own;
   });
 }

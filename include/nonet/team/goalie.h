@@ -26,7 +26,8 @@ struct ComingShot {
 std::optional<ComingShot> comingShot(const Situation& situation);
 
 /// Where the goalie's own kicks go: out of the way of the goal, to the side on which the ball is, in the
-/// middle to where the goalie faces; at a goal kick away from who waits for a push. Own field frame, m.
+/// middle to where the goalie faces; at a goal kick away from who waits for a push,
+/// elsewhere not through a mate where the other side is free. Own field frame, m.
 Vector2 clearanceTarget(const Situation& situation);
 
 }  // namespace nonet::team

@@ -20,7 +20,7 @@ PairSummary summarizePairs(std::span<const double> values, double resolution) {
   if (values.size() < 2) return summary;
   double squares = 0.0;
   for (const double value : values) squares += (value - summary.mean) * (value - summary.mean);
-  squares = std::max(squares, resolution * resolution);
+  squares = std::max(squares, resolution * resolution * (count - 1.0) / count);
   summary.standardError = std::sqrt(squares / (count - 1.0) / count);
   const boost::math::students_t student(count - 1.0);
   const double half = boost::math::quantile(student, 0.975) * summary.standardError;

@@ -51,7 +51,7 @@ double begunFaster(double seconds) {
 bool MatchStatistics::sameContact(const Frame& frame, const FrameRobot& robot, const Vector2& velocity,
                                   double step) const {
   const bool another = touch_ && (touch_->team != robot.team || touch_->unum != robot.unum);
-  if (!another || !velocity_ || frame.time - touch_->begin > 1.5 * step) return false;
+  if (!another || !velocity_ || frame.time - touch_->last > 1.5 * step) return false;
   const double before = velocity_->norm();
   const double after = velocity.norm();
   return after > before && velocity.dot(*velocity_) > std::cos(kSameWay) * after * before;

@@ -26,11 +26,11 @@ TEST(PairSummary, MeanErrorAndIntervalOfAKnownSample) {
 }
 
 // Two pairs of goalless games are no proof that the teams are equal: as if one of them had ended with a goal,
-// sqrt(0.5^2 / 1 / 2) with one degree of freedom, t = 12.7062.
+// (0, 0.5): standard error 0.25, and with one degree of freedom t = 12.7062.
 TEST(PairSummary, EqualPairsAreNotWithoutSpread) {
   const PairSummary summary = summarizePairs(std::vector<double>{0.0, 0.0}, 0.5);
-  EXPECT_NEAR(summary.standardError, 0.5 / std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(summary.high, 12.7062 * 0.5 / std::sqrt(2.0), 1e-3);
+  EXPECT_NEAR(summary.standardError, 0.25, 1e-12);
+  EXPECT_NEAR(summary.high, 12.7062 * 0.25, 1e-3);
 }
 
 TEST(SequentialBounds, AreReadOrExplained) {

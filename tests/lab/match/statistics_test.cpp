@@ -142,8 +142,10 @@ TEST_P(Statistics, AKickPastAMateIsOneTouch) {
   s.robot(0, 5, -0.2, 0.0);
   s.robot(0, 6, 0.5, 0.3);
   s.robot(1, 3, 3.0, 0.0);
-  s.ballAt(0.0, 0.0);
+  s.ballAt(-0.06, 0.0);
   s.run(1.0);
+  s.velocity = Vector2(0.2, 0.0);  // pushed first
+  s.run(0.4);
   s.velocity = Vector2(2.0, 0.0);
   s.run(1.0 / GetParam());
   s.velocity = Vector2(4.0, 0.0);
