@@ -69,7 +69,7 @@ std::optional<Action> pushAway(const Situation& s) {
 }
 
 std::optional<Action> runThrough(const Situation& s) {
-  if (const auto away = pushAway(s)) return away;
+  if (auto away = pushAway(s)) return away;
   const BallPlay& play = *s.play;
   const BallHandlingParameters& p = s.parameters.ball;
   const bool aligned = play.behind > p.alignedBehind && std::abs(play.direction) < p.alignedAngle &&
