@@ -35,6 +35,15 @@ struct Passing : Scene {
     put(world.teammates[kReceiver], Pose2(4.5, 2.5, 0.0));
   }
   std::optional<Pass> best() const { return bestPass(situation(Role::OnBall)); }
+  /// What the body was asked for while it lines up the best one.
+  motion::KickTo linedUp() const {
+    motion::KickTo request;
+    request.ball = world.ball.p_RB;
+    request.target = world.self.X_FR.inverse() * best().value().p_FTarget;
+    request.stops = true;
+    request.kick = std::string_view("pass");
+    return request;
+  }
   Vector2 mate() const { return world.teammates[kReceiver].X_FP.translation; }
 
   std::array<motion::KickOption, 1> kicks;
@@ -212,11 +221,7 @@ TEST(Pass, NotToAMateThatHasFallenSilent) {
 // An opponent that comes up to the robot on its last steps.
 TEST(Pass, GoesOnUnderPressure) {
   Passing scene;
-  motion::KickTo lined;
-  lined.ball = scene.world.ball.p_RB;
-  lined.target = scene.world.self.X_FR.inverse() * scene.best().value().p_FTarget;
-  lined.stops = true;
-  lined.kick = std::string_view("pass");
+  const motion::KickTo lined = scene.linedUp();
   scene.world.opponents[3].known = false;
   const auto passes = [&](double away) {
     Scene::put(scene.world.opponents[6], Pose2(1.0 - 0.6 * away, -0.8 * away, 0.0));
@@ -233,11 +238,7 @@ TEST(Pass, GoesOnUnderPressure) {
 // A lane that is just too narrow to begin with.
 TEST(Pass, OneThatIsBeingLinedUpIsNotGivenUpForALittle) {
   Passing scene;
-  motion::KickTo lined;
-  lined.ball = scene.world.ball.p_RB;
-  lined.target = scene.world.self.X_FR.inverse() * scene.best().value().p_FTarget;
-  lined.stops = true;
-  lined.kick = std::string_view("pass");
+  const motion::KickTo lined = scene.linedUp();
   const Vector2 middle = 0.5 * (scene.mate() + Vector2(1.0, 0.0));
   const Vector2 aside = Vector2(-2.5, 3.5).normalized();
   int held = 0, given = 0;

@@ -12,6 +12,7 @@
 
 #include "lab/common/parallel.h"
 #include "lab/reports/walk_speeds.h"
+#include "lab/trial/any_pose.h"
 
 namespace nonet::lab {
 
@@ -52,12 +53,6 @@ class NoisyPose {
   int cycle_ = 0;
 };
 
-Pose2 anyPose(Random& random) {
-  const double rotation = random.uniform(-kPi, kPi);
-  const double y = random.uniform(-1.0, 1.0);
-  return {random.uniform(-1.0, 1.0), y, rotation};
-}
-
 // Ten seconds lead out of a server's field, but into neither a goal nor the ball.
 Pose2 withFreeWay(Random& random) {
   constexpr double kRoom = 0.6;  // m
@@ -67,7 +62,7 @@ Pose2 withFreeWay(Random& random) {
   };
   Pose2 start;
   do {
-    start = anyPose(random);
+    start = anyPose(random, kPi);
   } while (bars(start, field.theirGoal(), field.post() + kRoom) ||
            bars(start, field.ownGoal(), field.post() + kRoom) || bars(start, kMeasuredRobotBall, kRoom));
   return start;
@@ -82,7 +77,7 @@ void begin(MeasuredRobot& trial, const Pose2& start, Random& random) {
 Walk walkInDirection(MeasuredRobot& trial, const WalkReportSettings& settings, double direction,
                      std::uint64_t seed) {
   Random random(seed);
-  begin(trial, anyPose(random), random);
+  begin(trial, anyPose(random, kPi), random);
   NoisyPose noisy(settings, random.fork(1));
   const Pose2 start = trial.pose();
   const Vector2 along = unitVector(direction);
@@ -133,7 +128,7 @@ Walk walkTenSeconds(MeasuredRobot& trial, const WalkReportSettings& settings, st
 
 Walk turnOnTheSpot(MeasuredRobot& trial, double sense, std::uint64_t seed) {
   Random random(seed);
-  begin(trial, anyPose(random), random);
+  begin(trial, anyPose(random, kPi), random);
   motion::WalkVelocity request;
   request.velocity = Pose2(0.0, 0.0, sense * kFastTurn);
   Walk walk;

@@ -6,6 +6,8 @@
 #include "nonet/math/random.h"
 #include "nonet/sim/referee/self_collision.h"
 
+#include "lab/trial/any_pose.h"
+
 namespace nonet::lab {
 
 namespace {
@@ -86,13 +88,6 @@ void rise(RobotTrial& trial, FallKind kind, Rise& result) {
       return;
     }
   }
-}
-
-// Up to 1 and 1 to either side, turned by up to so much.
-Pose2 anyPose(Random& random, double turned) {
-  const double rotation = random.uniform(-turned, turned);
-  const double y = random.uniform(-1.0, 1.0);
-  return {random.uniform(-1.0, 1.0), y, rotation};
 }
 
 }  // namespace

@@ -163,10 +163,11 @@ void Server::Implementation::deliverCommands() {
 // until the one before has its place, or has had time to get it.
 bool Server::Implementation::mustWaitToBeBorn(const AgentLink& link) {
   constexpr long kPatience = 10;  // cycles; a handshake takes five
+  if (link.sensesSent > 0 || link.agent == newborn) return false;
   const bool asks =
       std::any_of(link.inbox.begin(), link.inbox.end(),
                   [](const AgentLink::Received& received) { return received.effectors.scene.has_value(); });
-  if (link.sensesSent > 0 || !asks || link.agent == newborn) return false;
+  if (!asks) return false;
   if (newborn != kNoAgent && cycles - bornAt < kPatience) {
     for (const AgentInfo& info : simulation.agents()) {
       if (info.handle == newborn && info.unum == 0) return true;
