@@ -1,7 +1,7 @@
 # For the scripts that start and stop agents; not run by itself. Expects $0, gives:
 #   root      the folder with scripts/, params/ and skills/
 #   logs      where agents write what they say, and where their process ids are kept (NONET_LOGS)
-#   findBinary, parseArguments, launch, awaitAgents, isOurs, forgetEnded
+#   findBinary, parseArguments, launch, awaitAgents, anyPlays, isOurs, forgetEnded
 root=$(cd "$(dirname "$0")/.." && pwd)
 script=$(basename "$0" .sh)
 
@@ -43,8 +43,9 @@ findBinary() {
 
 isReal() { [[ $1 =~ ^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)$ ]]; }
 
-# HOST [PORT] and the league's options; the rest, after --, goes to `nonet play`.
+# HOST [PORT], the league's options, folders for logs and traces; the rest, after --, goes to `nonet play`.
 host=127.0.0.1 port=3100 team=Nonet count=9 countGiven=
+records='' traces=''
 options=()
 parseArguments() {
   if [ $# -gt 0 ] && [[ $1 != -* ]]; then host=$1; shift; fi
@@ -62,6 +63,11 @@ parseArguments() {
         esac
         shift 2
         ;;
+      --record | --trace)
+        [[ $# -ge 2 && -n $2 && $2 != -* ]] || usage
+        if [ "$1" = --record ]; then records=$2; else traces=$2; fi
+        shift 2
+        ;;
       --) shift; break ;;
       *) usage ;;
     esac
@@ -69,13 +75,17 @@ parseArguments() {
   options=("$@")
   checkAddress
   [[ $count =~ ^([1-9]|10|11)$ ]] || fail "-n must be 1 to 11, not '$count'"
+  local folder
+  for folder in "$records" "$traces"; do
+    [ -z "$folder" ] || mkdir -p "$folder" 2>/dev/null || fail "$folder: cannot make this folder"
+  done
 }
 # For scripts that start one agent, whatever the count.
 oneAgent() { [ -z "$countGiven" ] || fail "-n is for scripts/start.sh: this one starts one agent"; }
 checkAddress() {
   [ -n "$host" ] || fail "HOST is empty"
   [[ $port =~ ^[0-9]{1,5}$ ]] && [ "$port" -ge 1 ] && [ "$port" -le 65535 ] || fail "the port must be 1 to 65535, not '$port'"
-  [[ $team =~ ^[^[:space:]/\;\"\(\)]{1,64}$ ]] ||
+  [[ $team =~ ^[^[:space:]/\;\"\'\(\)]{1,64}$ ]] ||
     fail "team '$team': blanks, brackets, quotes, semicolons and slashes cannot be in a name"
 }
 
@@ -88,11 +98,14 @@ isOurs() {
   [ "$started" = "$2" ] && [ "$state" != Z ] && [ "$state" != X ]
 }
 
-# launch NAME ARGUMENT...: one agent in the background, its words in $logs/NAME.log.
+# launch NAME ARGUMENT...: one agent in the background, its words in $logs/NAME.log, its log and its trace under that name
+# in the folders that were given.
 started=()
 launch() {
   local name=$1 pid state began=
   shift
+  [ -z "$records" ] || set -- "$@" --record "$records/$name.zst"
+  [ -z "$traces" ] || set -- "$@" --trace "$traces/$name.trace"
   mkdir -p "$logs"
   setsid "$binary" play --host "$host" --port "$port" --team "$team" "$@" >"$logs/$name.log" 2>&1 </dev/null &
   pid=$!
@@ -135,6 +148,16 @@ awaitAgents() {
     fi
   done
   [ "$dead" -eq 0 ] || { echo "$script: $dead of ${#started[@]} agents did not start" >&2; return 1; }
+}
+# Whether one of them has said that a server took it into the team. Asking the server itself would be one connection more,
+# which not every server bears (server facts 7.2, quirk 2).
+anyPlays() {
+  local entry pid time name
+  for entry in "${started[@]}"; do
+    read -r pid time name <<<"$entry"
+    grep -q "^connected to " "$logs/$name.log" 2>/dev/null && return 0
+  done
+  return 1
 }
 anyAlive() {
   local entry pid time name

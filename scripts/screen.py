@@ -460,7 +460,7 @@ def main():
     parser.add_argument("--share", type=float, default=0.5, help="of the pairs in which a change is made (0.5)")
     parser.add_argument("--seed", type=int, default=1, help="of the first pair; each has the next one (1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="pairs at a time (one per core)")
-    parser.add_argument("--exact", action="store_true", help="the exact stepper; four times slower")
+    parser.add_argument("--exact", action="store_true", help="the exact stepper; three to four times slower")
     parser.add_argument("--nonet", default=str(ROOT / "build/release/nonet"), help="the program")
     parser.add_argument("--self-test", action="store_true")
     settings = parser.parse_args()

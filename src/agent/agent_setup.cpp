@@ -17,6 +17,8 @@ namespace nonet::agent {
 namespace {
 
 constexpr const char* kChallengeOption = "challenge";
+constexpr const char* kSyncOption = "sync";  // only if it is off
+constexpr const char* kSyncOff = "off";
 constexpr const char* kSkillOption = "skill";
 constexpr const char* kSideOption = "skillSide";   // "right" if it is mirrored
 constexpr std::string_view kStartMark = "start ";  // x, y in m, heading in rad, own field frame
@@ -66,7 +68,7 @@ AgentSettings makeAgentSettings(const AgentChoice& choice, const std::string& da
   return settings;
 }
 
-protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& version) {
+protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& version, bool sync) {
   protocol::LogHeader header;
   header.version = version;
   header.team = settings.team;
@@ -74,6 +76,7 @@ protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& 
   header.robotType = settings.robotType;
   header.seed = settings.seed;
   header.parameters = config::toToml(settings.parameters);
+  if (!sync) header.options[kSyncOption] = kSyncOff;
   if (settings.challenge != team::Challenge::None)
     header.options[kChallengeOption] = team::challengeName(settings.challenge);
   if (settings.skill) {
@@ -81,6 +84,11 @@ protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& 
     header.options[kSideOption] = settings.skill->side == model::Side::Right ? "right" : "left";
   }
   return header;
+}
+
+bool syncFromLog(const protocol::LogHeader& header) {
+  const auto sync = header.options.find(kSyncOption);
+  return sync == header.options.end() || sync->second != kSyncOff;
 }
 
 AgentSettings agentFromLog(const protocol::LogHeader& header, const std::string& dataFolder,

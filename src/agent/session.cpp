@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nonet/protocol/percept_text.h"
+#include "nonet/protocol/say_codec.h"
 
 namespace nonet::agent {
 
@@ -18,16 +19,17 @@ std::string_view Session::begin() {
 
 void Session::receive(std::string_view message) {
   protocol::parsePercept(message, percept_);
+  if (protocol::serverStep(percept_.time) == 0.0)
+    percept_.time = standing_.next(percept_.time, percept_.game.time);
   counts_.lostCycles += std::max(clock_.cyclesUntil(percept_.time) - 1, 0);
   ++counts_.messages;
   counts_.unknownTokens += percept_.unknownTokens;
   watchAcceptance();
-  if (pending_ == 0) {
-    outgoing_ = agent_->step(percept_);
-  } else {
+  const protocol::Effectors older = outgoing_;
+  outgoing_ = agent_->step(percept_);
+  if (outgoing_.say) saySlot_ = protocol::saySlot(percept_.time);
+  if (pending_ > 0) {
     ++counts_.passedOver;
-    const protocol::Effectors older = outgoing_;
-    outgoing_ = agent_->step(percept_);
     keepOnce(older);
   }
   ++pending_;
@@ -44,7 +46,8 @@ std::string_view Session::answer() {
 void Session::keepOnce(const protocol::Effectors& older) {
   if (!outgoing_.init) outgoing_.init = older.init;
   if (!outgoing_.beam) outgoing_.beam = older.beam;
-  if (!outgoing_.say) outgoing_.say = older.say;
+  // Once it is somebody else's turn, its message would drown theirs.
+  if (!outgoing_.say && protocol::saySlot(percept_.time) == saySlot_) outgoing_.say = older.say;
   outgoing_.pass = outgoing_.pass || older.pass;
 }
 

@@ -5,9 +5,7 @@
 namespace nonet::app {
 
 void addAgentOptions(CLI::App& command, agent::AgentChoice& choice, std::string& data) {
-  command.add_option("--type", choice.robotType, "Robot type")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 4));
+  command.add_option("--type", choice.robotType, "Robot type")->check(CLI::Range(0, 4));
   command
       .add_option("--params", choice.parameterFiles,
                   "A parameter file; given again, the later one lies over the earlier")
@@ -27,13 +25,9 @@ std::optional<lab::ServerAddress> ServerChoice::chosen() const {
 void addServerOptions(CLI::App& command, ServerChoice& server) {
   CLI::Option* tcp =
       command.add_flag("--tcp", server.overTcp, "Measure on a running, empty server instead of in process");
-  command.add_option("--host", server.address.host, "Its host")->capture_default_str()->needs(tcp);
-  command.add_option("--port", server.address.port, "Its agent port")
-      ->capture_default_str()
-      ->check(otherPort())
-      ->needs(tcp);
+  command.add_option("--host", server.address.host, "Its host")->needs(tcp);
+  command.add_option("--port", server.address.port, "Its agent port")->check(otherPort())->needs(tcp);
   command.add_option("--monitor-port", server.address.monitorPort, "Its monitor port")
-      ->capture_default_str()
       ->check(otherPort())
       ->needs(tcp);
 }

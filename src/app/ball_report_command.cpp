@@ -93,14 +93,13 @@ int run(const BallReportArguments& arguments) {
 }  // namespace
 
 void addBallReportCommand(CLI::App& app, int& exitCode) {
-  CLI::App* command =
-      app.add_subcommand("ball-report",
-                         "Measure seeded ball skills: approach, dribble, slalom, drive, "
-                         "duel, attack, siege, scrum, loose ball, receive, run with its stop");
+  CLI::App* command = app.add_subcommand(
+      "ball-report", "Measures what robots do with the ball at their feet: whole agents, seeded trials");
   const auto arguments = std::make_shared<BallReportArguments>();
   lab::BallReportSettings& settings = arguments->settings;
   addAgentOptions(*command, arguments->choice, arguments->data);
-  command->add_option("--skill", settings.skill, "One of them, or all");
+  command->add_option("--skill", settings.skill,
+                      fmt::format("One of {}; or all", fmt::join(lab::ballSkillNames(), ", ")));
   command->add_option("--opponent-data", arguments->opponentData,
                       "The same for opponents; without it: that of --data, without --set");
   command

@@ -40,8 +40,7 @@ void addBenchCommand(CLI::App& app, int& exitCode) {
       app.add_subcommand("bench", "Prints the signature of a fixed episode, and what a cycle of it costs");
   auto threads = std::make_shared<int>(1);
   command->add_option("--threads", *threads, "Threads of the physics; the signature does not depend on them")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 64));
   command->footer(
       "Example: nonet bench --threads 2\nTimes are processor times, so they do not depend on what else the "
       "machine does.");

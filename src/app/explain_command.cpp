@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kNear = 1.0;  // s of the game
+
 struct ExplainArguments {
   std::string log;
   double at = 0.0;
@@ -26,10 +32,12 @@ struct ExplainArguments {
   bool json = false;
 };
 
-// The log of this player in a folder of logs.
-std::string logOf(const ExplainArguments& arguments) {
-  if (!fs::is_directory(arguments.log)) return arguments.log;
-  std::string found;
+// The logs of one player in a folder of logs. Who came back to a server has several, one for each of its
+// lives.
+std::vector<std::string> logsOf(const ExplainArguments& arguments) {
+  if (!fs::is_directory(arguments.log)) return {arguments.log};
+  std::vector<std::string> found;
+  std::optional<protocol::LogHeader> first;
   for (const auto& entry : fs::directory_iterator(arguments.log)) {
     if (!entry.is_regular_file() || entry.path().extension() != ".zst") continue;
     const protocol::LogReader reader(entry.path().string());
@@ -37,13 +45,15 @@ std::string logOf(const ExplainArguments& arguments) {
         (arguments.team && reader.header()->team != *arguments.team)) {
       continue;
     }
-    if (!found.empty()) {
-      throw std::runtime_error(
-          fmt::format("{} and {} both fit: name one with --unum and --team", found, entry.path().string()));
+    if (!first) first = reader.header();
+    if (reader.header()->unum != first->unum || reader.header()->team != first->team) {
+      throw std::runtime_error(fmt::format("{} and {} both fit: name one with --unum and --team",
+                                           found.front(), entry.path().string()));
     }
-    found = entry.path().string();
+    found.push_back(entry.path().string());
   }
   if (found.empty()) throw std::runtime_error("no log of that player in " + arguments.log);
+  std::sort(found.begin(), found.end());
   return found;
 }
 
@@ -58,10 +68,17 @@ void checkRobot(const ExplainArguments& arguments, const std::string& log,
                   header.unum));
 }
 
-int runExplain(const ExplainArguments& arguments) {
-  const std::string log = logOf(arguments);
-  nlohmann::ordered_json moment;
-  double nearest = std::numeric_limits<double>::infinity();
+struct Moment {
+  std::string log;
+  std::string problem;                                        // of the log, in a sentence
+  nlohmann::ordered_json trace;                               // null if there is no message in it
+  double distance = std::numeric_limits<double>::infinity();  // s of the game from the wanted one
+};
+
+// The moment of this log next to the wanted one.
+Moment momentOf(const std::string& log, const ExplainArguments& arguments) {
+  Moment moment;
+  moment.log = log;
   lab::ReplaySettings settings;
   settings.dataFolder = dataFolder(arguments.data);
   const protocol::LogReader reader(log);
@@ -74,18 +91,34 @@ int runExplain(const ExplainArguments& arguments) {
   settings.observer = [&](const agent::Session& session) {
     const double distance = std::abs(session.agent().world().game.time - arguments.at);
     // The game's clock may stand still: the last of its cycles is what the robot came to.
-    if (distance > nearest) return;
-    nearest = distance;
-    moment = agent::traceOf(session.agent());
+    if (distance > moment.distance) return;
+    moment.distance = distance;
+    moment.trace = agent::traceOf(session.agent());
   };
-  const std::string problem = lab::replay(log, settings).problem;
-  if (moment.is_null()) throw std::runtime_error(problem.empty() ? log + ": no messages in it" : problem);
-  if (!problem.empty()) fmt::print(stderr, "nonet explain: {}\n", problem);
-  if (nearest > 1.0) {
-    throw std::runtime_error(fmt::format("{}: nothing at {:.2f} s of the game, the nearest is {:.2f} s", log,
-                                         arguments.at, moment["game_time"].get<double>()));
+  moment.problem = lab::replay(log, settings).problem;
+  if (moment.trace.is_null() && moment.problem.empty()) moment.problem = log + ": no messages in it";
+  return moment;
+}
+
+int runExplain(const ExplainArguments& arguments) {
+  Moment moment;
+  std::vector<std::string> holding;
+  for (const std::string& log : logsOf(arguments)) {
+    Moment found = momentOf(log, arguments);
+    if (found.distance <= kCycleTime) holding.push_back(log);
+    if (moment.log.empty() || found.distance < moment.distance) moment = std::move(found);
   }
-  fmt::print("{}", arguments.json ? moment.dump() + "\n" : agent::traceText(moment));
+  if (moment.trace.is_null()) throw std::runtime_error(moment.problem);
+  if (holding.size() > 1) {
+    throw std::runtime_error(fmt::format("{} and {} both hold {:.2f} s of the game: give the file",
+                                         holding[0], holding[1], arguments.at));
+  }
+  if (!moment.problem.empty()) fmt::print(stderr, "nonet explain: {}\n", moment.problem);
+  if (moment.distance > kNear) {
+    throw std::runtime_error(fmt::format("{}: nothing at {:.2f} s of the game, the nearest is {:.2f} s",
+                                         moment.log, arguments.at, moment.trace["game_time"].get<double>()));
+  }
+  fmt::print("{}", arguments.json ? moment.trace.dump() + "\n" : agent::traceText(moment.trace));
   return 0;
 }
 

@@ -196,7 +196,9 @@ class ExternalGame {
       if (!begun || frame.mode != PlayMode::BeforeKickOff) {
         played = Clock::now();
       } else if (secondsSince(played) >= settings_.kickOffWait) {
-        link_.command("(kickOff None)");  // the team whose turn it is
+        // The second half is for the team that did not begin. The server does not know who did, since we said
+        // so ourselves: asked for the one whose turn it is it may take the left again (server facts 4.3).
+        link_.command(frame.swapped ? "(kickOff Left)" : "(kickOff Right)");
         played = Clock::now();
       }
     }

@@ -107,8 +107,7 @@ void addFidelityCommand(CLI::App& app, int& exitCode) {
   command->add_option("--svg", arguments->svgFolder,
                       "Also draws each scenario's error over time into this folder");
   command->add_option("--solver", arguments->solver, "Stepper of the simulation")
-      ->check(CLI::IsMember({"exact", "quick"}))
-      ->capture_default_str();
+      ->check(CLI::IsMember({"exact", "quick"}));
   command->footer(
       "Example: nonet fidelity tests/data/physics --svg logs/fidelity\n"
       "The columns >0.1 mm, >1 mm, >1 cm tell when the position of any body or of the ball is first that far "

@@ -47,18 +47,20 @@ std::string checkCount(const std::string& text) {
   return fmt::format("'{}' is no whole number from 0 to 2^64 - 1", text);
 }
 
-void checkNumbers(CLI::App& command) {
+void finishOptions(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     const std::string type = option->get_type_name();
     if (type.starts_with("FLOAT")) option->check(CLI::Validator(checkNumber, ""));
     if (type.starts_with("UINT")) option->check(CLI::Validator(checkCount, ""));
+    if (option->get_default_str() == "[]") option->default_str("");  // for --help: no list, no default
   }
-  for (CLI::App* inner : command.get_subcommands(nullptr)) checkNumbers(*inner);
+  for (CLI::App* inner : command.get_subcommands(nullptr)) finishOptions(*inner);
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"Nonet: a RoboCup 3D soccer agent, its embedded server and its laboratory"};
   app.require_subcommand(1);
+  app.option_defaults()->always_capture_default();
   app.set_version_flag("--version", nonet::app::versionText());
   int exitCode = 0;
   nonet::app::addPlayCommand(app, exitCode);
@@ -84,7 +86,7 @@ int run(int argc, char** argv) {
   nonet::app::addSaveReportCommand(app, exitCode);
   nonet::app::addParamsCommand(app, exitCode);
   nonet::app::addSoakCommand(app, exitCode);
-  checkNumbers(app);
+  finishOptions(app);
   if (argc > 1 && argv[1][0] != '-') checkCommand(app, argv[1]);
   const std::string_view first = argc > 1 ? argv[1] : "";
   if (first.starts_with('-') && app.get_option_no_throw(std::string(first)) == nullptr)

@@ -178,25 +178,19 @@ int runMatch(MatchArguments& arguments) {
 void addGameOptions(CLI::App* command, MatchArguments& arguments) {
   lab::MatchSettings& match = arguments.settings.match;
   command->add_option("--minutes", match.minutes, "Game time in all, two halves")
-      ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
   command->add_option("--kick-off-wait", match.kickOffWait, "Simulated seconds before each half")
-      ->capture_default_str()
       ->check(CLI::Range(0.0, 1e4));
-  command->add_option("--seed", match.seed, "Seed of the server and of all agents")->capture_default_str();
-  command->add_option("--players", arguments.players, "Players a side")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 11));
+  command->add_option("--seed", match.seed, "Seed of the server and of all agents");
+  command->add_option("--players", arguments.players, "Players a side")->check(CLI::Range(1, 11));
   command->add_flag("--alone", arguments.alone, "The right team stays away");
 }
 
 void addTeamOptions(CLI::App* command, MatchArguments& arguments) {
   lab::MatchSettings& match = arguments.settings.match;
-  command->add_option("--left", match.left.name, "Name of the left team")->capture_default_str();
+  command->add_option("--left", match.left.name, "Name of the left team");
   CLI::Option* alone = command->get_option("--alone");  // of a team that stays away nothing is asked
-  command->add_option("--right", match.right.name, "Name of the right team")
-      ->capture_default_str()
-      ->excludes(alone);
+  command->add_option("--right", match.right.name, "Name of the right team")->excludes(alone);
   command
       ->add_option("--left-params", match.left.parameterFiles,
                    "A parameter file of the left team; given again, the later one lies over the earlier")
@@ -234,16 +228,12 @@ void addTeamOptions(CLI::App* command, MatchArguments& arguments) {
 
 void addServerOptions(CLI::App* command, MatchArguments& arguments) {
   TcpMatchSettings& settings = arguments.settings;
-  command->add_option("--port", settings.port, "Port for agents, 0: any free one")
-      ->capture_default_str()
-      ->check(ownPort());
+  command->add_option("--port", settings.port, "Port for agents, 0: any free one")->check(ownPort());
   command->add_option("--monitor-port", settings.monitorPort, "Port for monitors, 0: any free one")
-      ->capture_default_str()
       ->check(ownPort());
   command
       ->add_option("--answer-timeout", settings.answerTimeout,
                    "Lock-step: seconds after which a silent agent is no longer waited for")
-      ->capture_default_str()
       ->check(CLI::Range(0.01, 1e6));
   command->add_option("--settings", arguments.settingFiles, "Files with settings of the server")
       ->check(CLI::ExistingFile);
@@ -257,7 +247,7 @@ void addServerOptions(CLI::App* command, MatchArguments& arguments) {
 
 void addRecordings(CLI::App* command, MatchArguments& arguments) {
   TcpMatchSettings& settings = arguments.settings;
-  command->add_option("--json", arguments.json, "File for the result")->capture_default_str();
+  command->add_option("--json", arguments.json, "File for the result");
   command->add_flag(
       "--truth", arguments.truth,
       "The server tells each agent where it and the ball are; nobody plays by it, but logs with "
@@ -306,7 +296,6 @@ void addWayOfPlaying(CLI::App* command, MatchArguments& arguments) {
   command
       ->add_option("--threads", arguments.threads,
                    "With --in-process: threads for agents and physics, 0: one per core")
-      ->capture_default_str()
       ->check(threadCount())
       ->needs(inProcess);
 }

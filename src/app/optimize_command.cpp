@@ -377,21 +377,17 @@ void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
   lab::OptimizationSettings& settings = arguments.settings;
   command.add_option("--type", settings.robotType, "Robot type")->check(CLI::Range(0, 4));
   command.add_option("--population", settings.population, "Candidates per generation; 0: CMA-ES' default");
-  command.add_option("--sigma", settings.sigma, "First step size as a share of the search ranges")
-      ->capture_default_str();
+  command.add_option("--sigma", settings.sigma, "First step size as a share of the search ranges");
   command.add_option("--trials", settings.trials, "Seeds per candidate, the same for all of a generation")
-      ->check(moreThanZero())
-      ->capture_default_str();
+      ->check(moreThanZero());
   command.add_option("--validation-every", settings.validationEvery, "Generations between validations")
-      ->check(moreThanZero())
-      ->capture_default_str();
+      ->check(moreThanZero());
   command.add_option("--validation-trials", settings.validationTrials, "Fresh seeds per validation")
-      ->check(moreThanZero())
-      ->capture_default_str();
+      ->check(moreThanZero());
   command.add_flag("--quick", settings.quickSolver,
-                   "Quick physics: the same equations, five times faster, not to the last bit");
+                   "Quick physics: the same equations, three to four times faster, not to the last bit");
   command.add_flag("--racing", settings.racing, "The worse half of a generation gets half of the trials");
-  command.add_option("--restarts", arguments.restarts, "none, ipop or bipop")->capture_default_str();
+  command.add_option("--restarts", arguments.restarts, "none, ipop or bipop");
   command
       .add_option("--keys", settings.keys,
                   "A prefix of the parameters to move, as often as there are some; default: the task's")
@@ -402,8 +398,7 @@ void addSearchOptions(CLI::App& command, OptimizeArguments& arguments) {
           "A parameter file where the search starts; given again, the later one lies over the earlier")
       ->allow_extra_args(false)
       ->check(CLI::ExistingFile);
-  command.add_option("--seed", settings.seed, "Decides every random number of the run")
-      ->capture_default_str();
+  command.add_option("--seed", settings.seed, "Decides every random number of the run");
 }
 
 }  // namespace
@@ -414,9 +409,8 @@ void addOptimizeCommand(CLI::App& app, int& exitCode) {
   command->add_option("task", arguments->task, "What to learn; --list shows the tasks");
   CLI::Option* out =
       command->add_option("--out", arguments->out, "Folder of the run; with --accept the file to write");
-  CLI::Option* generations =
-      command->add_option("--generations", arguments->settings.generations, "How many; extends with --resume")
-          ->capture_default_str();
+  CLI::Option* generations = command->add_option("--generations", arguments->settings.generations,
+                                                 "How many; extends with --resume");
   addSearchOptions(*command, *arguments);
   arguments->command = command;
   command->add_option("--threads", arguments->threads, "Evaluations at once; 0: one per core")

@@ -72,8 +72,7 @@ void noticeSilentEnd(int socket) {
 
 class PlayClient {
  public:
-  explicit PlayClient(const PlaySettings& settings)
-      : settings_(settings), turn_(settings.host, settings.port), signals_(io_, SIGINT, SIGTERM) {
+  explicit PlayClient(const PlaySettings& settings) : settings_(settings), signals_(io_, SIGINT, SIGTERM) {
     if (!settings.draw.empty()) painter_ = std::make_unique<RobovizPainter>(settings.draw);
     if (!settings.trace.empty()) trace_ = std::make_unique<TraceFile>(settings.trace);
     if (!settings.record.empty()) openLog(settings.record);
@@ -127,12 +126,21 @@ class PlayClient {
   /// turn does not count.
   void begin() {
     searches_ = false;
+    started_ = Clock::now();
     queue();
   }
 
+  /// The queue is that of the server's address, whatever it was called by. A name without one has none.
   void queue() {
-    queuedSince_ = Clock::now();
-    awaitTurn();
+    if (!searches_) deadline_.set(settings_.wait, [this] { giveUp(); });
+    resolver_.async_resolve(settings_.host, std::to_string(settings_.port),
+                            [this](std::error_code error, const tcp::resolver::results_type& endpoints) {
+                              if (finished_) return;
+                              if (!searches_) deadline_.cancel();
+                              if (!error && !endpoints.empty()) turn_.queueFor(endpoints.begin()->endpoint());
+                              queuedSince_ = Clock::now();
+                              awaitTurn();
+                            });
   }
 
   void awaitTurn() {
@@ -149,27 +157,23 @@ class PlayClient {
   }
 
   void connect() {
-    if (link_) {
-      std::error_code ignored;
-      link_->silence.cancel();
-      link_->socket.close(ignored);
-    }
+    drop();
     link_ = std::make_shared<Connection>(io_, settings_.session);
     resolver_.async_resolve(
         settings_.host, std::to_string(settings_.port),
         [this, link = link_](std::error_code error, const tcp::resolver::results_type& endpoints) {
           if (isOver(link)) return;
-          if (error) return retry(error);
+          if (error) return retry(error.message());
           asio::async_connect(link->socket, endpoints, [this, link](std::error_code failure, const auto&) {
             if (isOver(link)) return;
-            if (failure) return retry(failure);
+            if (failure) return retry(failure.message());
             greet(link);
           });
         });
   }
 
-  void retry(std::error_code error) {
-    trouble_ = error.message();
+  void retry(const std::string& trouble) {
+    trouble_ = trouble;
     const double pause = std::clamp(settings_.wait - waited(), 0.0, nextPause_);
     say("waiting for a server at {}:{} ({}), next try in {:.1f} s", settings_.host, settings_.port, trouble_,
         pause);
@@ -219,14 +223,21 @@ class PlayClient {
       if (isOver(link)) return;
       if (!error) error = absorb(link, count);
       if (isOver(link)) return;
-      if (error) {
-        lose(PlayExit::ServerGone, fmt::format("the server at {}:{} is gone ({})", settings_.host,
-                                               settings_.port, error.message()));
-        return;
-      }
+      if (error) return endOf(link, error);
       reply(link);
       read(link);
     });
+  }
+
+  /// A server that has not said anything yet may be about to start, like one that refuses to connect.
+  void endOf(const Link& link, std::error_code error) {
+    if (link->session.counts().messages > 0 || lastInPlay_) {
+      return lose(PlayExit::ServerGone, fmt::format("the server at {}:{} is gone ({})", settings_.host,
+                                                    settings_.port, error.message()));
+    }
+    drop();
+    reconnectAfter_ = kSilenceBeforeReconnect;
+    retry(fmt::format("it closes the connection without a message: {}", error.message()));
   }
 
   static asio::mutable_buffer room(Connection& connection) {
@@ -264,6 +275,10 @@ class PlayClient {
       warn(log_->error());
     }
     connection.session.receive(message);
+    if (connection.session.timeStands())
+      warn(
+          fmt::format("the server's time has stopped, since it has run for six days: it goes on by messages; "
+                      "start the server anew when you can"));
     if (trace_) {
       trace_->add(connection.session.agent());
       warn(trace_->error());
@@ -337,16 +352,22 @@ class PlayClient {
     trouble_ = message;
     newLife_ = newLife_ || link_->session.counts().messages > 0;
     add(link_->session.counts());
-    std::error_code ignored;
-    link_->silence.cancel();
-    link_->socket.close(ignored);
-    link_.reset();  // its handlers find that they are over
+    drop();
     turnEnd_.cancel();
     turn_.release();
     reconnectAfter_ = kSilenceBeforeReconnect;
     const double pause = exit == PlayExit::Refused ? kPauseAfterRefusal : nextPause_;
     nextPause_ = std::min(nextPause_ * 1.5, kLongestPause);
     pause_.set(pause, [this] { begin(); });
+  }
+
+  /// Its handlers find that they are over.
+  void drop() {
+    if (!link_) return;
+    std::error_code ignored;
+    link_->silence.cancel();
+    link_->socket.close(ignored);
+    link_.reset();
   }
 
   /// What was counted on the connections before.

@@ -48,7 +48,7 @@ int runPlay(PlayArguments& arguments) {
   // servers that hang before the first message.
   play.session.sync = arguments.sync != "off";
   play.rescue = arguments.sync == "auto";
-  play.recordHeader = agent::logHeader(play.session.agent, NONET_VERSION);
+  play.recordHeader = agent::logHeader(play.session.agent, NONET_VERSION, play.session.sync);
   return static_cast<int>(nonet::app::play(play));
 }
 
@@ -59,20 +59,15 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
   auto arguments = std::make_shared<PlayArguments>();
   agent::AgentChoice& choice = arguments->choice;
   PlaySettings& play = arguments->play;
-  command->add_option("--host", play.host, "Host of the server")->capture_default_str();
-  command->add_option("--port", play.port, "Port for agents")->capture_default_str()->check(otherPort());
+  command->add_option("--host", play.host, "Host of the server");
+  command->add_option("--port", play.port, "Port for agents")->check(otherPort());
   command->add_option("--unum", choice.unum, "Uniform number, 0: the server chooses")
-      ->capture_default_str()
       ->check(CLI::Range(0, 11));
-  command->add_option("--team", choice.team, "Name of the team")->capture_default_str();
-  command->add_option("--type", choice.robotType, "Robot type")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 4));
+  command->add_option("--team", choice.team, "Name of the team");
+  command->add_option("--type", choice.robotType, "Robot type")->check(CLI::Range(0, 4));
   CLI::Option* draw = command->add_flag("--draw", arguments->draw,
                                         "Draw what the agent believes and wants on RoboViz (UDP port 32769)");
-  command->add_option("--draw-host", arguments->drawHost, "With --draw: where RoboViz runs")
-      ->needs(draw)
-      ->capture_default_str();
+  command->add_option("--draw-host", arguments->drawHost, "With --draw: where RoboViz runs")->needs(draw);
   command->add_option("--trace", play.trace,
                       "Write what the agent believes and wants in each cycle (JSON lines, zstd)");
   command->add_option("--record", play.record, "Write a log for `nonet replay` (compressed with zstd)");
@@ -80,7 +75,6 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
       ->add_option("--sync", arguments->sync,
                    "End answers with (syn), for lock-step servers: on does, off does not; auto does, and "
                    "frees servers that hang before their first message")
-      ->capture_default_str()
       ->check(CLI::IsMember({"auto", "on", "off"}));
   command
       ->add_option("--params", choice.parameterFiles,
@@ -93,9 +87,8 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
       ->allow_extra_args(false);
   command->add_option("--data", arguments->data, "Folder with params/ and skills/")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--seed", choice.seed, "Seed of the agent's random numbers")->capture_default_str();
+  command->add_option("--seed", choice.seed, "Seed of the agent's random numbers");
   command->add_option("--wait", play.wait, "Seconds to wait for a server, and for its first message")
-      ->capture_default_str()
       ->check(moreThanZero());
   command->add_flag("--reconnect", play.reconnect,
                     "Come back to a server that is started again, or after a cut connection; give up after "

@@ -140,8 +140,7 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
       "Errors of the believed pose against mypos and myorien in the log, every vision message "
       "counted, and a map of both tracks");
   command->add_option("--maps", arguments->maps, "With --localization: folder for the maps (SVG)")
-      ->needs(localization)
-      ->capture_default_str();
+      ->needs(localization);
   CLI::Option* trace =
       command->add_flag("--trace", arguments->trace,
                         "What the agent believed and wanted, one JSON object per cycle; the report goes to "

@@ -111,9 +111,8 @@ void addSideOptions(CLI::App& command, const std::string& letter, const std::str
                   fmt::format("Robot types of side {} from number 1 on, such as 0,2,2,2,2,2,2,2,4", letter))
       ->delimiter(',')
       ->check(CLI::Range(0, 4));
-  command
-      .add_option(fmt::format("--{}-name", letter), side.name, fmt::format("Team name of side {}", letter))
-      ->capture_default_str();
+  command.add_option(fmt::format("--{}-name", letter), side.name,
+                     fmt::format("Team name of side {}", letter));
 }
 
 }  // namespace
@@ -126,12 +125,10 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
   settings.place.clear();
   arguments->a.side.name = "A";
   arguments->b.side.name = "B";
-  command
-      ->add_option("A", arguments->a.word,
-                   "Side A: own, a variant (params/variants/), a folder with params/ and skills/, an "
-                   "executable of Nonet, or a shell command with {port} in it that starts agents")
-      ->capture_default_str();
-  command->add_option("B", arguments->b.word, "Side B, likewise")->capture_default_str();
+  command->add_option("A", arguments->a.word,
+                      "Side A: own, a variant (params/variants/), a folder with params/ and skills/, an "
+                      "executable of Nonet, or a shell command with {port} in it that starts agents");
+  command->add_option("B", arguments->b.word, "Side B, likewise");
   addSideOptions(*command, "a", "left", arguments->a);
   addSideOptions(*command, "b", "right", arguments->b);
   command->add_option(
@@ -146,25 +143,18 @@ void addSeriesCommand(CLI::App& app, int& exitCode) {
   command->add_option("--data", arguments->data, "Folder with params/ and skills/ of this program's sides")
       ->check(CLI::ExistingDirectory);
   command->add_option("--pairs", settings.pairs, "Pairs of games, at most if --sprt is given")
-      ->capture_default_str()
       ->check(CLI::Range(1, 100000));
   command->add_option("--minutes", settings.minutes, "Game time of one game, two halves")
-      ->capture_default_str()
       ->check(CLI::Range(0.01, 1e4));
-  command->add_option("--seed", settings.seed, "Seed of the first pair; each pair has the next one")
-      ->capture_default_str();
-  command->add_option("--players", settings.players, "Players a side")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 11));
+  command->add_option("--seed", settings.seed, "Seed of the first pair; each pair has the next one");
+  command->add_option("--players", settings.players, "Players a side")->check(CLI::Range(1, 11));
   command->add_option("--kick-off-wait", settings.kickOffWait, "Simulated seconds before each half")
-      ->capture_default_str()
       ->check(CLI::Range(0.0, 1e4));
   command->add_option(
       "--sprt", arguments->sequential,
       "D0,D1: stop as soon as a sequential test tells a true goal difference per ten minutes of "
       "D0 from D1; 5 % error of each kind");
   command->add_option("--jobs", arguments->jobs, "Games at a time, 0: one per core")
-      ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->add_flag(
       "--monitor-logs", settings.monitorLogs,

@@ -96,25 +96,17 @@ void addServeCommand(CLI::App& app, int& exitCode) {
   auto arguments = std::make_shared<ServeArguments>();
   ServeArguments& a = *arguments;
   command->footer(kExamples);
-  command->add_option("--port", a.server.agentPort, "Port for agents, 0: any free one")
-      ->capture_default_str()
-      ->check(ownPort());
+  command->add_option("--port", a.server.agentPort, "Port for agents, 0: any free one")->check(ownPort());
   command
       ->add_option("--monitor-port", a.server.monitorPort, "Port for monitors and trainers, 0: any free one")
-      ->capture_default_str()
       ->check(ownPort());
-  command
-      ->add_option("--bind", a.server.address,
-                   "Address to listen on; 0.0.0.0: all, so that others can connect")
-      ->capture_default_str();
+  command->add_option("--bind", a.server.address,
+                      "Address to listen on; 0.0.0.0: all, so that others can connect");
   command->add_option("--most-connections", a.server.mostConnections, "Of agents, and of monitors, at once")
-      ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   command->add_option("--most-per-address", a.server.mostPerAddress, "Of these from one address")
-      ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  command->add_option("--seed", a.seed, "Seed of all noise and of the referee's random choices")
-      ->capture_default_str();
+  command->add_option("--seed", a.seed, "Seed of all noise and of the referee's random choices");
   auto* realTime =
       command->add_flag("--realtime", a.realTime,
                         "20 ms per cycle (the default, unless --sync or --free is given); with --sync: "
@@ -124,18 +116,16 @@ void addServeCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--answer-timeout", a.server.answerTimeout,
                    "Lock-step: seconds after which an agent that does not answer is no longer waited for")
-      ->capture_default_str()
       ->check(moreThanZero());
   command
       ->add_option(
           "--players", a.server.players,
           "Start when so many agents are there; they enter in the order of team and number, so that a "
           "lock-step match with the same seed is the same again")
-      ->capture_default_str()
       ->check(CLI::Range(0, 22));
   command->add_option("--left", a.leftTeam, "Name of the team that plays left (else the first to come)");
   command->add_option("--right", a.rightTeam, "Name of the team that plays right");
-  command->add_option("--field", a.field, "Size of the field: 30x20 or 21x14")->capture_default_str();
+  command->add_option("--field", a.field, "Size of the field: 30x20 or 21x14");
   command->add_option("--settings", a.files, "TOML files with settings of the server, overlaid in this order")
       ->check(CLI::ExistingFile);
   command->add_option("--set", a.assignments, "One setting, Name=Value; see --list-settings");
@@ -143,7 +133,6 @@ void addServeCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--truth", a.truth, "Agents are told mypos, myorien and ballpos");
   command->add_flag("--no-noise", a.noNoise, "No noise of vision and beams");
   command->add_option("--solver", a.solver, "Physics: exact, as the league's server, or quick")
-      ->capture_default_str()
       ->check(CLI::IsMember({"exact", "quick"}));
   command->add_option(
       "--record-monitor", a.server.monitorLog,

@@ -126,29 +126,21 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
   auto arguments = std::make_shared<SoakArguments>();
   MatchSoakSettings& matches = arguments->matches;
   FaultSoakSettings& faults = arguments->faults;
-  command->add_option("--matches", matches.matches, "Whole matches over TCP")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--minutes", matches.minutes, "Game time of a match")
-      ->capture_default_str()
-      ->check(CLI::Range(0.01, 1e4));
+  command->add_option("--matches", matches.matches, "Whole matches over TCP")->check(CLI::Range(1, 100000));
+  command->add_option("--minutes", matches.minutes, "Game time of a match")->check(CLI::Range(0.01, 1e4));
   command->add_option("--kick-off-wait", matches.kickOffWait, "Simulated seconds before each half")
-      ->capture_default_str()
       ->check(CLI::Range(0.0, 1e4));
   command
       ->add_option("--realtime-share", matches.realTimeShare,
                    "Share of matches by the clock, not in lock-step")
-      ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--eleven-share", matches.elevenShare, "Share of matches of eleven against eleven")
-      ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--keep-logs", matches.keepLogs, "Keep the logs of good matches as well");
   CLI::Option* harm =
       command->add_flag("--faults", arguments->harm, "One match in real time that is harmed instead");
   command->add_option("--times", faults.times, "With --faults: how often each kind")
       ->needs(harm)
-      ->capture_default_str()
       ->check(CLI::Range(1, 10000));
   command->add_option("--kinds", faults.kinds, "With --faults: only these kinds")
       ->needs(harm)
@@ -156,7 +148,6 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::IsMember(faultKinds()));
   command->add_option("--pause", faults.pause, "With --faults: seconds between two, about")
       ->needs(harm)
-      ->capture_default_str()
       ->check(CLI::Range(0.0, 3600.0));
   command
       ->add_option(
@@ -168,7 +159,7 @@ void addSoakCommand(CLI::App& app, int& exitCode) {
       ->add_flag("!--no-beams", arguments->effectors.beams,
                  "With --effectors: nothing that puts robots into each other; the bounds are narrow then")
       ->needs(command->get_option("--effectors"));
-  command->add_option("--seed", arguments->seed, "Decides everything that is drawn")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Decides everything that is drawn");
   command
       ->add_option("--players", arguments->players,
                    "Players a side; default 9, with --faults 3, with --effectors 4")

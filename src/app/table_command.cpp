@@ -97,7 +97,6 @@ void addTableCommand(CLI::App& app, int& exitCode) {
   command->add_option("--minutes", arguments->minutes, "Games of so many minutes instead of the file's")
       ->check(CLI::Range(0.01, 10000.0));
   command->add_option("--jobs", arguments->jobs, "Games at a time, 0: one per core")
-      ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->add_flag("--json", arguments->json, "Print JSON instead of text");
   command->add_option("--data", arguments->data, "Folder with params/ and skills/ of this program's sides")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -52,12 +53,15 @@ std::string tomlValue(const Field& field) {
 
 void appendField(const Field& field, std::string& toml) {
   const Declaration& declaration = field.declaration;
-  toml += fmt::format("# {}", declaration.text);
-  if (field.boolean == nullptr && field.text == nullptr) {
-    toml += fmt::format(" ({} .. {})", quantityText(declaration.range.low, declaration.unit),
-                        quantityText(declaration.range.high, declaration.unit));
+  if (!declaration.text.empty()) {
+    toml += fmt::format("# {}", declaration.text);
+    if (field.boolean == nullptr && field.text == nullptr) {
+      toml += fmt::format(" ({} .. {})", quantityText(declaration.range.low, declaration.unit),
+                          quantityText(declaration.range.high, declaration.unit));
+    }
+    toml += '\n';
   }
-  toml += fmt::format("\n{} = {}\n", lastPart(field.key), tomlValue(field));
+  toml += fmt::format("{} = {}\n", lastPart(field.key), tomlValue(field));
 }
 
 std::string notANumber(const Field& field, std::string_view text) {
@@ -253,7 +257,10 @@ std::vector<std::string> declarationFaults(const std::vector<Field>& fields) {
     if (field.key.rfind("provenance", 0) == 0)
       fault(field, "the name is kept for the origin of learned values");
     if (!isBareKey(lastPart(field.key))) fault(field, "the key needs letters, digits, '_' or '-' only");
-    if (field.declaration.text.empty()) fault(field, "has no sentence");
+    const std::string_view text = field.declaration.text;
+    if (text.empty()) fault(field, "has no sentence");
+    if (!text.empty() && std::islower(static_cast<unsigned char>(text.front())))
+      fault(field, "the sentence goes on where another one ended");
     if (field.boolean != nullptr || field.text != nullptr) continue;
     if (!(range.low <= range.high)) fault(field, "the range is empty");
     const double value = valueOf(field);

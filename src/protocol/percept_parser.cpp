@@ -10,6 +10,8 @@
 namespace nonet::protocol {
 namespace {
 
+constexpr int kLastUnum = 11;  // what follows on the own number indexes tables by it
+
 bool polarItem(SexprReader& reader, Polar& polar) {
   std::array<double, 3> values;
   if (!reader.numberList("pol", values)) {
@@ -230,8 +232,9 @@ class PerceptParser {
       if (!reader_.integer(number) || !reader_.close()) return false;
       if (name == "sl") return game.scoreLeft = number, true;
       if (name == "sr") return game.scoreRight = number, true;
-      if (name == "unum") return game.unum = number, true;
-      return false;
+      if (name != "unum" || number < 1 || number > kLastUnum) return false;
+      game.unum = number;
+      return true;
     });
     note(PerceptKind::GameState);
     return closed;

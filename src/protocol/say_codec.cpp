@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nonet/math/angle.h"
+#include "nonet/protocol/server_clock.h"
 
 namespace nonet::protocol {
 
@@ -28,6 +29,9 @@ constexpr std::uint32_t kNoTime = 31;
 constexpr std::uint32_t kNoVote = (1U << 22U) - 1U;
 constexpr std::array<double, 4> kSigmas{0.1, 0.3, 1.0, 3.0};                     // m
 constexpr std::array<double, 4> kSightingAges{0.1, 0.25, 0.5, kOldestSighting};  // s
+
+constexpr double kSpeakers = 11.0;
+constexpr double kFirstLongStep = 65536.0;  // s
 
 using Bits = std::array<bool, kSayLength * kBitsPerCharacter>;
 
@@ -309,9 +313,16 @@ std::optional<SayMessage> decodeSay(std::string_view text, std::string_view team
 
 // The printed times are hundredths, even ones for some seconds and then odd ones, since the server's clock
 // drifts (server facts, conventions): an eighth keeps every one of them off the borders between the slots.
+//
+// From 65,536 s on the clock's step is so far from 0.02 s that a slot is two of its steps instead (the sum
+// that began at 0 gets there so that an eighth does there, too). Where the sum stands still, whoever counts
+// on does so by cycles.
 int saySlot(double serverTime) {
-  const auto pair = static_cast<long long>(std::floor(serverTime / 0.04 + 0.125));
-  return static_cast<int>(((pair % 11) + 11) % 11) + 1;
+  const double step = serverTime < kFirstLongStep ? 0.0 : serverStep(serverTime);
+  const double time = tellsSum(serverTime) ? static_cast<double>(static_cast<float>(serverTime)) : serverTime;
+  const double pair = std::floor(time / (2.0 * (step > 0.0 ? step : kCycleTime)) + 0.125);
+  const double rest = std::fmod(pair, kSpeakers);
+  return std::isfinite(rest) ? static_cast<int>(rest < 0.0 ? rest + kSpeakers : rest) + 1 : 1;
 }
 
 }  // namespace nonet::protocol

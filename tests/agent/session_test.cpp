@@ -1,9 +1,13 @@
 #include "nonet/agent/session.h"
 
+#include <algorithm>
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "nonet/agent/agent_setup.h"
+#include "nonet/protocol/say_codec.h"
 
 namespace nonet::agent {
 namespace {
@@ -21,12 +25,15 @@ SessionSettings settings(bool sync = true) {
   return {makeAgentSettings(choice, NONET_SOURCE_DIR), sync};
 }
 
-std::string message(int cycle, const std::string& status = "") {
+std::string messageAt(double time, const std::string& status = "") {
   char clock[32];
-  std::snprintf(clock, sizeof clock, "%.2f", 3.0 + 0.02 * cycle);
+  std::snprintf(clock, sizeof clock, "%.2f", time);
   return "(time (now " + std::string(clock) + "))(GS " + status +
          "(sl 0) (sr 0) (t 0.00) (pm BeforeKickOff))" +
          "(GYR (n torso) (rt 0.00 0.00 0.00))(ACC (n torso) (a 0.00 0.00 9.81))(HJ (n hj1) (ax 0.00))";
+}
+std::string message(int cycle, const std::string& status = "") {
+  return messageAt(3.0 + 0.02 * cycle, status);
 }
 const std::string kAccepted = "(unum 5) (team right) ";
 
@@ -113,6 +120,30 @@ TEST(Session, KeepsTheBeamOfAPassedOverMessage) {
   EXPECT_THAT(std::string(late.answer()), HasSubstr("(beam "));
 }
 
+// A team mate hears one of us in two cycles: who speaks in another's turn takes the turn from him.
+TEST(Session, SaysNothingOfAPassedOverMessageInTheTurnOfAnother) {
+  int said = 0;
+  for (int cycle = 2; cycle < 60; ++cycle) {
+    // Answers all messages up to this one, which it passes over for the next one or for the one after that.
+    for (const int more : {1, 2}) {
+      Session prompt(settings()), late(settings());
+      std::string answer;
+      for (int i = 0; i <= cycle; ++i) {
+        for (Session* session : {&prompt, &late}) session->receive(message(i, i == 1 ? kAccepted : ""));
+        answer = prompt.answer();
+        if (i < cycle) late.answer();
+      }
+      if (answer.find("(say ") == std::string::npos) continue;
+      ++said;
+      for (int i = 1; i <= more; ++i) late.receive(message(cycle + i));
+      const bool ownTurn = protocol::saySlot(3.0 + 0.02 * (cycle + more)) == 5;
+      EXPECT_EQ(ownTurn, more == 1) << "a turn has two cycles";
+      EXPECT_EQ(late.answer().find("(say ") != std::string_view::npos, ownTurn) << cycle << " " << more;
+    }
+  }
+  EXPECT_GE(said, 4);
+}
+
 // Oracle: an agent that gets every message once.
 TEST(Session, AMessageThatComesTwiceMovesNothing) {
   Session once(settings()), twice(settings());
@@ -155,6 +186,46 @@ TEST(Session, WhoHasNotAnsweredYetIsNotRefused) {
   session.receive(message(cycle++));
   session.receive(message(cycle++, kAccepted));
   EXPECT_EQ(session.stage(), Session::Stage::Playing);
+}
+
+// The own number is an index of many tables; the server says it once.
+TEST(Session, SurvivesNumbersThatNoPlayerHas) {
+  for (const char* number :
+       {"0", "-1", "12", "99", "2147483647", "-2147483648", "99999999999", "nan", "1e9"}) {
+    Session session(settings());
+    session.begin();
+    const std::string status =
+        "(unum " + std::string(number) + ") (team left) (sl 2147483647) (sr -2147483648) ";
+    for (int cycle = 0; cycle < 120; ++cycle) {
+      std::string text = message(cycle, cycle > 1 ? status : "");
+      if (cycle > 20) text.replace(text.find("BeforeKickOff"), 13, cycle > 60 ? "PlayOn" : "KickOff_Left");
+      text +=
+          "(See (G1R (pol 15.00 4.00 -1.00)) (G2R (pol 15.10 -4.00 -1.00)) (F1R (pol 18.00 33.00 -2.00)) "
+          "(B (pol 2.00 0.00 -14.00)) (P (team Test) (id " +
+          std::string(number) + ") (head (pol 3.00 9.00 0.00))))";
+      session.receive(text);
+      EXPECT_THAT(std::string(session.answer()), EndsWith("(syn)")) << number;
+      ASSERT_EQ(session.agent().world().game.unum, 0) << number;
+    }
+    EXPECT_GE(session.counts().unknownTokens, 118) << number;
+  }
+}
+
+// A server that has run for six days: its time, a 32-bit sum, does not grow any more.
+TEST(Session, PlaysOnWhereTheServersTimeStandsStill) {
+  Session session(settings());
+  session.begin();
+  std::set<int> slots;
+  for (int cycle = 0; cycle < 200; ++cycle) {
+    session.receive(messageAt(cycle < 50 ? 524286.71875 + 0.03125 * std::min(cycle, 41) : 524288.0,
+                              cycle == 1 ? kAccepted : ""));
+    session.answer();
+    slots.insert(protocol::saySlot(session.percept().time));
+    ASSERT_EQ(session.timeStands(), cycle >= 41) << cycle;
+  }
+  EXPECT_EQ(session.counts().lostCycles, 0);
+  EXPECT_EQ(slots.size(), 11U);
+  EXPECT_NEAR(session.agent().world().time, 524288.0 + 0.02 * (199 - 41), 1e-6);
 }
 
 TEST(Session, SurvivesAnything) {

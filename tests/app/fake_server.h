@@ -2,6 +2,7 @@
 // after five seconds.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -21,10 +22,16 @@ class ClosedPort {
     acceptor_.bind({asio::ip::address_v4::loopback(), 0});
   }
   int port() const { return acceptor_.local_endpoint().port(); }
-  /// Now somebody does: the server has come. Returns when a client has, and closes that connection.
+  /// Now somebody does: the server has come. Returns when a client has; says one thing and closes that
+  /// connection.
   void acceptAndClose() {
     acceptor_.listen();
-    acceptor_.accept().close();
+    asio::ip::tcp::socket socket = acceptor_.accept();
+    std::array<char, 1024> greeting{};
+    socket.read_some(asio::buffer(greeting));
+    std::string frame;
+    protocol::appendFrame(frame, "(time (now 1.00))");
+    asio::write(socket, asio::buffer(frame));
   }
 
  private:

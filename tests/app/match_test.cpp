@@ -237,7 +237,8 @@ TEST_F(MatchCommand, SaysBeforeTheMatchThatTheResultCannotBeWritten) {
 }
 
 TEST_F(MatchCommand, TeamNamesThatWouldFailLateAreRefused) {
-  for (const std::string& name : std::vector<std::string>{"A/B", "A B", "A(B", std::string(65, 'x')}) {
+  for (const std::string& name :
+       std::vector<std::string>{"A/B", "A B", "A(B", "A'B", "A\"B", std::string(65, 'x')}) {
     Program program({"match", "--in-process", "--minutes", "60", "--left", name, "--json", file("x.json")},
                     file("x.txt"));
     EXPECT_EQ(program.wait(), 1) << name;

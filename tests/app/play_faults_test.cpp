@@ -164,6 +164,46 @@ void takeIn(FakeServer& server) {
   EXPECT_TRUE(server.receive().has_value());
 }
 
+// As servers do that have not loaded all yet, and others when a team may not come in yet.
+TEST_F(PlayFaults, AConnectionThatClosesBeforeItsFirstMessageIsTriedAgain) {
+  const auto program = play({"--wait", "20"});
+  for (const bool reset : {true, false}) {
+    server.accept();
+    if (!reset) server.receive();  // what has not been read makes the end a reset
+    server.close();
+  }
+  server.accept();
+  takeIn(server);
+  server.close();
+  EXPECT_EQ(program->wait(), 3) << "it has spoken";
+  EXPECT_THAT(program->output(), HasSubstr("without a message"));
+}
+
+TEST_F(PlayFaults, ButNoLongerThanToldTo) {
+  const auto program = play({"--wait", "1", "--reconnect"});
+  const auto begin = Clock::now();
+  while (program->running() && secondsSince(begin) < kBusy) {
+    if (!server.waits(0.1)) continue;
+    server.accept();
+    server.close();
+  }
+  EXPECT_EQ(program->wait(), 2);
+  EXPECT_THAT(program->output(), HasSubstr("no server at 127.0.0.1"));
+}
+
+TEST_F(PlayFaults, WaitsForItsTurnWhateverTheServerIsCalled) {
+  const auto first = play({});
+  server.accept();
+  EXPECT_THAT(server.receive().value_or(""), StartsWith("(scene"));
+  Program second({"play", "--host", "localhost", "--port", std::to_string(server.port()), "--unum", "4"},
+                 folder.file("second.txt"));
+  EXPECT_FALSE(server.waits(1.5)) << "it comes before its turn";
+  server.send(standingMessage(1.0));
+  server.receive();
+  server.send(standingMessage(1.02, "(unum 3) (team left) "));
+  EXPECT_TRUE(server.waits(kBusy));
+}
+
 // A cut connection, half a message, nonsense instead of one: each time the robot introduces itself anew, and
 // each of its lives has a log that can be replayed.
 TEST_F(PlayFaults, ComesBackIfToldTo) {

@@ -3,13 +3,18 @@
 #include <iterator>
 #include <map>
 #include <regex>
+#include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <signal.h>
+
+#include "nonet/lab/match/frame_sources.h"
+#include "nonet/protocol/framing.h"
 
 #include "app/browser.h"
 #include "app/fake_server.h"
@@ -196,6 +201,66 @@ TEST(SeriesCommand, PlaysOnAServerThatRuns) {
     for (const auto& team : teams) EXPECT_EQ(team.at("players").size(), 2U);
   }
   EXPECT_TRUE(server.running());
+}
+
+// What a monitor sees of the play mode, each once.
+class ModeWatch {
+ public:
+  explicit ModeWatch(const std::string& port) {
+    asio::connect(socket_, asio::ip::tcp::resolver(io_).resolve("127.0.0.1", port));
+    thread_ = std::jthread([this] { read(); });
+  }
+  /// Ends when the server does.
+  std::vector<protocol::PlayMode> modes() {
+    thread_.join();
+    return modes_;
+  }
+
+ private:
+  void read() {
+    protocol::FrameReader frames;
+    lab::MonitorFrames stream;
+    std::error_code error;
+    while (!error) {
+      const std::span<char> room = frames.prepare(65536);
+      frames.received(socket_.read_some(asio::buffer(room.data(), room.size()), error));
+      while (const auto message = frames.next()) {
+        if (!stream.message(*message)) continue;
+        if (modes_.empty() || modes_.back() != stream.frame().mode) modes_.push_back(stream.frame().mode);
+      }
+    }
+  }
+
+  asio::io_context io_;
+  asio::ip::tcp::socket socket_{io_};
+  std::vector<protocol::PlayMode> modes_;
+  std::jthread thread_;
+};
+
+// The second half belongs to the team that did not begin.
+TEST(SeriesCommand, TheOtherTeamKicksOffTheSecondHalf) {
+  const TestFolder folder("nonet_series_halves");
+  Program server({"serve", "--sync", "--port", "0", "--monitor-port", "0", "--set", "RuleHalfTime=2"},
+                 folder.file("server.txt"));
+  ASSERT_TRUE(server.says("agents on port \\d+, monitors on port \\d+"));
+  const std::string text = server.output();
+  std::smatch ports;
+  ASSERT_TRUE(std::regex_search(text, ports, std::regex("agents on port (\\d+), monitors on port (\\d+)")));
+  ModeWatch watch(ports[2].str());
+  Program series(seriesOf({"own", "own", "--where", "127.0.0.1:" + ports[1].str() + ":" + ports[2].str()},
+                          folder.file("games")),
+                 folder.file("1.txt"));
+  EXPECT_EQ(series.wait(), 0) << series.output();
+  ::kill(server.pid(), SIGTERM);
+  server.wait();
+  std::vector<protocol::PlayMode> kickOffs;
+  for (const protocol::PlayMode mode : watch.modes()) {
+    if (mode == protocol::PlayMode::KickOffLeft || mode == protocol::PlayMode::KickOffRight)
+      kickOffs.push_back(mode);
+  }
+  ASSERT_GE(kickOffs.size(), 2U);
+  EXPECT_EQ(kickOffs[0], protocol::PlayMode::KickOffLeft);
+  EXPECT_EQ(kickOffs[1], protocol::PlayMode::KickOffRight);
 }
 
 TEST(SeriesCommand, SaysAtOnceThatItWaitsForAServer) {

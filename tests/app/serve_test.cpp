@@ -358,6 +358,7 @@ TEST_F(Scripts, RefuseWhatCannotWork) {
       {"start.sh", {"127.0.0.1", "99999999999999999999"}},
       {"start.sh", {"127.0.0.1", "-t", "A/B"}},
       {"start.sh", {"127.0.0.1", "-t", "A B"}},
+      {"start.sh", {"127.0.0.1", "-t", "A'B"}},
       {"start_penalty_kicker.sh", {"127.0.0.1", "x"}},
       {"startChallengePlayer.sh", {"127.0.0.1", "3100", "x", "y", "run"}},
       {"startChallengePlayer.sh", {"127.0.0.1", "3100", "1", "2m", "run"}},

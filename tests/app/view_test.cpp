@@ -216,28 +216,58 @@ TEST(HttpServer, TroubleWithAPageIsToldAndTheNextIsServed) {
 
 TEST(TraceFolder, LinesOfOthersAreLeftOutAndAFileThatIsGoneIsNamed) {
   const TestFolder folder("nonet_view_traces");
-  const std::string ours = R"({"time":1.5,"game_time":0.5,"unum":3,"left":false})";
+  const std::string ours = R"({"time":1.5,"game_time":0.5,"unum":3,"team":"A"})";
   std::ofstream(folder.file("ours.trace")) << ours << "\n"
-                                           << R"({"time":"2","game_time":1,"unum":3,"left":false})"
+                                           << R"({"time":"2","game_time":1,"unum":3,"team":"A"})"
                                            << "\n"
-                                           << R"({"game_time":1,"unum":3,"left":false})"
+                                           << R"({"game_time":1,"unum":3,"team":"A"})"
                                            << "\n"
-                                           << R"({"time":2,"game_time":1,"unum":"3","left":0})"
+                                           << R"({"time":2,"game_time":1,"unum":"3","team":0})"
                                            << "\n";
-  std::ofstream(folder.file("others.trace")) << R"({"time":1,"game_time":1,"unum":"4","left":1})"
+  std::ofstream(folder.file("others.trace")) << R"({"time":1,"game_time":1,"unum":"4","team":"A"})"
                                              << "\n";
   const TraceFolder traces(folder.file(""));
   EXPECT_EQ(traces.size(), 1U);
-  EXPECT_EQ(traces.cycles(13), "[" + ours + "]");
-  EXPECT_EQ(traces.cycles(3), "[]");
+  EXPECT_EQ(traces.cycles("A", 3), "[" + ours + "]");
+  EXPECT_EQ(traces.cycles("A", 4), "[]");
+  EXPECT_EQ(traces.cycles("B", 3), "[]");
   std::string problem = "?";
-  traces.cycles(13, &problem);
+  traces.cycles("A", 3, &problem);
   EXPECT_EQ(problem, "");
   std::ofstream(folder.file("ours.trace"), std::ios::app) << R"({"time":2,"game_t)";
-  EXPECT_EQ(traces.cycles(13, &problem), "[" + ours + "]") << "as far as it goes";
+  EXPECT_EQ(traces.cycles("A", 3, &problem), "[" + ours + "]") << "as far as it goes";
   EXPECT_THAT(problem, ::testing::HasSubstr("ours.trace"));
   fs::remove(folder.file("ours.trace"));
-  EXPECT_THROW(traces.cycles(13), protocol::LogError);
+  EXPECT_THROW(traces.cycles("A", 3), protocol::LogError);
+}
+
+// A player's trace is his on both sides, and goes on when a server is started anew.
+TEST(TraceFolder, ATraceIsAPlayersWhateverSideAndServer) {
+  const TestFolder folder("nonet_view_sides");
+  std::string all;
+  for (const char* line : {R"({"time":700,"game_time":300,"unum":3,"team":"A","left":true})",
+                           R"({"time":700.2,"game_time":300.2,"unum":3,"team":"A","left":false})",
+                           R"({"time":1,"game_time":0,"unum":3,"team":"A","left":true})",
+                           R"({"time":1.2,"game_time":0.2,"unum":3,"team":"A","left":true})"}) {
+    std::ofstream(folder.file("a.trace"), std::ios::app) << line << "\n";
+    all += (all.empty() ? "" : ",") + std::string(line);
+  }
+  std::ofstream(folder.file("b.trace")) << R"({"time":1,"game_time":0,"unum":3,"team":"B","left":false})"
+                                        << "\n";
+  const TraceFolder traces(folder.file(""));
+  EXPECT_EQ(traces.size(), 2U);
+  EXPECT_EQ(traces.cycles("A", 3), "[" + all + "]");
+  EXPECT_THAT(traces.cycles("B", 3), ::testing::HasSubstr("\"B\""));
+}
+
+TEST(HttpRequest, TextIsDecoded) {
+  HttpRequest request;
+  HttpResponse refusal;
+  ASSERT_TRUE(parseHttpRequest("GET /trace?team=A%26%3D%25b%zz%4&unum=7 HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                               request, refusal));
+  EXPECT_EQ(request.text("team"), "A&=%b%zz%4");
+  EXPECT_EQ(request.number("unum"), 7U);
+  EXPECT_EQ(request.text("none"), "");
 }
 
 // `nonet view` in the background, on a port of its own.

@@ -295,11 +295,12 @@ struct Faulty {
     visit({"b", Unit::None, {0.0, 1.0}, search(0.5, 2.0), "Search leaves the range"}, self.b);
     visit({"b", Unit::None, {0.0, 1.0}, fixed, "Twice"}, self.b);
     visit({"c d", Unit::None, {0.0, 1.0}, fixed, ""}, self.c);
+    visit({"e", Unit::None, {0.0, 1.0}, fixed, "and then this"}, self.c);
   }
 };
 
 TEST(Parameters, DeclarationFaultsAreFound) {
-  EXPECT_EQ(declarationFaults(Faulty{}).size(), 5U);
+  EXPECT_EQ(declarationFaults(Faulty{}).size(), 6U);
   EXPECT_THAT(declarationFaults(Whole{}), testing::IsEmpty());
 }
 

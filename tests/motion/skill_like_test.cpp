@@ -39,7 +39,7 @@ Skill like(const std::string& text) {
   return parseSkills(text, "test.skl", nullptr, baseBeside()).at(0);
 }
 
-std::string errorOf(const std::string& text, const std::vector<SkillText>& others = baseBeside()) {
+std::string errorBeside(const std::string& text, const std::vector<SkillText>& others = baseBeside()) {
   try {
     parseSkills(text, "test.skl", nullptr, others);
   } catch (const SkillError& error) {
@@ -120,7 +120,7 @@ TEST(SkillLike, IsTheSameAsTheTextWrittenOut) {
       "  parameter b = a * 3\n"
       "  parameter c = b / 2\n"
       "}\n";
-  EXPECT_THAT(errorOf(chain), HasSubstr("test.skl:7:13: the default lies outside the range"));
+  EXPECT_THAT(errorBeside(chain), HasSubstr("test.skl:7:13: the default lies outside the range"));
   std::string whole = chain;
   whole.replace(whole.find("30deg"), 5, "13deg");
   EXPECT_EQ(fuzz::describe({like(whole)}), fuzz::describe(parseSkills(written, "test.skl")));
@@ -155,10 +155,10 @@ TEST(SkillLike, ErrorsNameThePlaceAndTheSkill) {
       // A number with which the other one's text makes no sense: told where that stands.
       {"skill a like base { parameter near = 0m }", "base.skl:6:3: the head of a kick needs at least"},
   };
-  for (const auto& [text, message] : cases) EXPECT_THAT(errorOf(text), HasSubstr(message)) << text;
-  EXPECT_THAT(errorOf("skill a like base { }", {{"base.skl", "skill base {\n  jump\n}"}}),
+  for (const auto& [text, message] : cases) EXPECT_THAT(errorBeside(text), HasSubstr(message)) << text;
+  EXPECT_THAT(errorBeside("skill a like base { }", {{"base.skl", "skill base {\n  jump\n}"}}),
               HasSubstr("base.skl:2:3: 'jump' is no statement"));
-  EXPECT_THAT(errorOf("skill a like base { }", {{"base.skl", "skill base {\n  wait 1kg }"}}),
+  EXPECT_THAT(errorBeside("skill a like base { }", {{"base.skl", "skill base {\n  wait 1kg }"}}),
               HasSubstr("base.skl:2:8: unknown unit"));
 }
 
@@ -166,7 +166,7 @@ TEST(SkillLike, OnlySoManyInARow) {
   std::string text = "skill s0 { wait 1s }\n";
   for (int i = 1; i <= 7; ++i) text += fmt::format("skill s{} like s{} {{ }}\n", i, i - 1);
   EXPECT_EQ(parseSkills(text, "test.skl").size(), 8U);
-  EXPECT_THAT(errorOf(text + "skill s8 like s7 { }"),
+  EXPECT_THAT(errorBeside(text + "skill s8 like s7 { }"),
               HasSubstr("test.skl:2:15: more than 8 skills in a row"));
 }
 

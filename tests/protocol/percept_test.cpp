@@ -42,6 +42,18 @@ TEST(Percept, GameStateInAllForms) {
   EXPECT_EQ(strange.game.time, 1.0);
 }
 
+TEST(Percept, NumbersThatNoPlayerHasAreUnknown) {
+  for (const char* number : {"0", "-1", "12", "2147483647", "-2147483648", "99999999999", "x", "3.5"}) {
+    const Percept percept = perceptOf(std::string("(GS (unum ") + number + ") (team left) (t 1.00))");
+    EXPECT_FALSE(percept.game.unum) << number;
+    EXPECT_EQ(percept.unknownTokens, 1) << number;
+    EXPECT_EQ(percept.game.side, TeamSide::Left) << number;
+    EXPECT_EQ(percept.game.time, 1.0) << number;
+  }
+  for (const int number : {1, 11})
+    EXPECT_EQ(perceptOf("(GS (unum " + std::to_string(number) + "))").game.unum, number);
+}
+
 TEST(Percept, TurnsTheServersAxesIntoOurs) {
   // The server's x is to the right and y forward: a force to the right is along -y, one forward along x.
   const Percept percept = perceptOf(

@@ -331,5 +331,30 @@ TEST(SayCodec, EachNumberHasTwoCyclesOfItsOwnWhateverTheClockDrifts) {
   }
 }
 
+// After a day the steps are 0.0234, 0.0156 or 0.0313 s. The sum began at 0: its times are those that can
+// come.
+TEST(SayCodec, EachNumberHasTwoCyclesOfItsOwnForDays) {
+  float time = 0.0F;
+  for (const float day : {65600.0F, 131100.0F, 262200.0F}) {
+    while (time < day) time += 0.02F;
+    int turns = 0, shortTurns = 0, since = -10;
+    int slot = 0;
+    for (int cycle = 0; cycle < 30000; ++cycle, time += 0.02F) {
+      const double printed = std::round(static_cast<double>(time) * 100.0) / 100.0;
+      if (saySlot(printed) == slot) continue;
+      EXPECT_TRUE(slot == 0 || saySlot(printed) == slot % 11 + 1) << day << " " << cycle;
+      shortTurns += turns++ > 2 && cycle - since < 2 ? 1 : 0;
+      since = cycle;
+      slot = saySlot(printed);
+    }
+    EXPECT_NEAR(turns, 15000, 1) << day;
+    EXPECT_EQ(shortTurns, 0) << day;
+  }
+  for (const double strange : {std::nan(""), HUGE_VAL, 1e300, -1e300, -0.04, 524288.0}) {
+    EXPECT_GE(saySlot(strange), 1) << strange;
+    EXPECT_LE(saySlot(strange), 11) << strange;
+  }
+}
+
 }  // namespace
 }  // namespace nonet::protocol

@@ -162,7 +162,6 @@ TEST(PlayBall, ShotsWithAKickThatNeedsRoomOrTimeAreForWhereNoOtherServes) {
   EXPECT_EQ(shot(6.0), "none") << "somebody is at 1.8 m";
 }
 
-// The oracle: which of the places between the posts a straight line reaches past everybody.
 TEST(PlayBall, ShootsOverRobotsButNotOverTheBar) {
   world::WorldState world;
   world.ball.p_FB = Vector3(10.0, 0.0, 0.042);
@@ -415,17 +414,23 @@ TEST(BallTarget, RollsOutWhereItLeavesTheFieldFirst) {
 }
 
 TEST(BallTarget, LiesInTheGoalOrBringsTheBallBackToTheMiddle) {
+  const BallTargetParameters p;
   world::WorldState world;
+  int brought = 0;
   for (double x = -15; x <= 15; x += 0.5) {
     for (double y = -10; y <= 10; y += 0.5) {
       world.ball.p_FB = Vector3(x, y, 0.042);
-      const Vector2 target = ballTarget(world, {});
-      if (target.x() > 15.0)
-        EXPECT_LT(std::abs(target.y()), 1.05);
-      else
-        EXPECT_GT(x, 13.0);
+      const Vector2 target = ballTarget(world, p);
+      if (x > 15.0 - p.cornerDepth && std::abs(y) > 1.05 + p.cornerAside) {
+        EXPECT_EQ(target, Vector2(15.0 - p.cornerBack, 0.0)) << "from beside the goal, " << x << " " << y;
+        ++brought;
+      } else {
+        EXPECT_GT(target.x(), 15.0) << x << " " << y;
+        EXPECT_LT(std::abs(target.y()), 1.05) << x << " " << y;
+      }
     }
   }
+  EXPECT_EQ(brought, 72) << "18 on either side of the goal, in two rows";
 }
 
 // Close to the goal the ball goes where the goalie is not, on whichever side that is; never beside the goal.

@@ -61,15 +61,18 @@ TEST(Radio, SaysNothingOfABallThatIsNotKnown) {
   Radio radio;
   world::WorldState world = stateOf(4);
   world.ball.known = false;
+  int said = 0;
   for (int cycle = 0; cycle < 30; ++cycle) {
     world.time = 7.0 + 0.02 * cycle;
     const auto say = radio.update(world, {2.0, std::nullopt});
     if (!say) continue;
+    ++said;
     const auto heard = protocol::decodeSay(say->view(), "Nonet");
     ASSERT_TRUE(heard.has_value());
     EXPECT_FALSE(heard->ball.has_value());
     EXPECT_FALSE(heard->timeToBall.has_value());
   }
+  EXPECT_GT(said, 0);
 }
 
 /// Sees an opponent here, just now.

@@ -31,8 +31,10 @@ struct AgentChoice {
 /// one of these, if the file of the type or all skills are missing.
 AgentSettings makeAgentSettings(const AgentChoice& choice, const std::string& dataFolder);
 
-/// What the header of a log must hold so that agentFromLog() builds the same agent.
-protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& version);
+/// What the header of a log must hold so that agentFromLog() builds the same agent. `sync` is the session's.
+protocol::LogHeader logHeader(const AgentSettings& settings, const std::string& version, bool sync = true);
+/// Whether the agent's answers ended with (syn).
+bool syncFromLog(const protocol::LogHeader& header);
 
 /// The same agent as the one that wrote the header of the log `path`. The start pose stands in a comment of
 /// its own. Throws protocol::LogError or config::ParameterError that name `path`.

@@ -14,6 +14,7 @@
 #include "nonet/protocol/effectors.h"
 #include "nonet/protocol/percept.h"
 #include "nonet/protocol/server_clock.h"
+#include "nonet/protocol/standing_time.h"
 
 namespace nonet::agent {
 
@@ -48,7 +49,7 @@ class Session {
   /// Absorbs one sense message: parses it and steps the agent.
   void receive(std::string_view message);
   /// The one answer to all messages since the last one; empty if there were none. What the agent wanted in
-  /// messages that were passed over and that must not get lost (beam, say, pass) goes along.
+  /// messages that were passed over and that must not get lost (beam, pass, say within its turn) goes along.
   std::string_view answer();
 
   Stage stage() const { return stage_; }
@@ -56,6 +57,8 @@ class Session {
   /// The last message received.
   const protocol::Percept& percept() const { return percept_; }
   const Agent& agent() const { return *agent_; }
+  /// The server has run for six days and its time has stopped; the session counts on by messages.
+  bool timeStands() const { return standing_.stands(); }
 
   /// Messages without team and number after our first answer, which holds init, that mean a refusal: the
   /// server's answer takes two (facts 1.3), one second of them leaves room for late ones.
@@ -76,6 +79,8 @@ class Session {
   Stage stage_ = Stage::Connecting;
   int pending_ = 0;  // messages since the last answer
   protocol::ServerClock clock_;
+  protocol::StandingTime standing_;
+  int saySlot_ = 0;  // the turn in which the last say was made
 };
 
 }  // namespace nonet::agent

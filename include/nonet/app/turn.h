@@ -5,22 +5,27 @@
 
 #include <string>
 
+#include <asio/ip/tcp.hpp>
+
 namespace nonet::app {
 
 /// The right to introduce oneself, held by at most one process of this user per server. Given back when the
 /// process ends, however it ends.
 class Turn {
  public:
-  Turn(const std::string& host, int port);
+  Turn() = default;
   ~Turn();
   Turn(const Turn&) = delete;
   Turn& operator=(const Turn&) = delete;
 
-  /// Does not block. True as well where no lock file can be made.
+  /// Where the server is. All addresses of this machine's own loop are one.
+  void queueFor(const asio::ip::tcp::endpoint& server);
+  /// Does not block. True as well where no lock file can be made, or before queueFor().
   bool take();
   void release();
 
  private:
+  std::string name_;
   int file_ = -1;
 };
 

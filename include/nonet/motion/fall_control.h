@@ -30,7 +30,11 @@ struct FallParameters {
     visit(
         {"quietRate", Unit::RadianPerSecond, {0.1, 20.0}, fixed, "Turning slower than this, the robot lies"},
         self.quietRate);
-    visit({"longestWait", Unit::Second, {0.0, 5.0}, fixed, "Then it rises even if it still moves"},
+    visit({"longestWait",
+           Unit::Second,
+           {0.0, 5.0},
+           fixed,
+           "The robot rises after lying this long even if it still moves"},
           self.longestWait);
     visit({"reconsiderTime",
            Unit::Second,
@@ -51,7 +55,7 @@ struct FallParameters {
            Unit::RadianPerSecond,
            {0.0, 20.0},
            fixed,
-           "and turning slower than this the robot may walk again"},
+           "After rising: turning slower than this, and upright (settledTilt), the robot may walk again"},
           self.settledRate);
     visit({"armPitch", Unit::Radian, {-2.0, 2.0}, fixed, "Shoulder pitch while falling"}, self.armPitch);
     visit({"armYaw", Unit::Radian, {0.0, 1.6}, fixed, "Arms outwards while falling"}, self.armYaw);

@@ -109,13 +109,18 @@ struct KickParameters {
            fixed,
            "A kick out of the walk begins in steps that are slower than this"},
           self.strideSpeed);
-    visit({"strideTurn", Unit::RadianPerSecond, {0, 10}, fixed, "and turn slower than this"},
+    visit({"strideTurn",
+           Unit::RadianPerSecond,
+           {0, 10},
+           fixed,
+           "A kick out of the walk begins in steps that turn slower than this"},
           self.strideTurn);
     visit({"leastPace",
            Unit::MetrePerSecond,
            {-1, 1},
            fixed,
-           "and lead ahead as they say by at least this: a swing out of steps back is weak"},
+           "A kick out of the walk begins in steps that lead ahead at least this fast: a swing out of steps "
+           "back is weak"},
           self.leastPace);
     visit({"quietRate",
            Unit::RadianPerSecond,
@@ -123,7 +128,12 @@ struct KickParameters {
            fixed,
            "Kicks from a stand begin when the torso turns slower than this"},
           self.quietRate);
-    visit({"quietTime", Unit::Second, {0, 2}, fixed, "and has done so for this long"}, self.quietTime);
+    visit({"quietTime",
+           Unit::Second,
+           {0, 2},
+           fixed,
+           "Kicks from a stand begin when the torso has been quiet (quietRate) for this long"},
+          self.quietTime);
   }
 };
 

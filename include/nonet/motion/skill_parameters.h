@@ -46,7 +46,7 @@ struct SkillParameters {
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
       visit({self.name.parameter, self.name.unit, self.name.range, self.name.searchRange,
-             "Declared in the skill file"},
+             ""},  // the skill file says what it is
             self.value);
     }
   };

@@ -31,7 +31,6 @@ class SkillPlayer {
              const std::optional<KickAim>& aim = std::nullopt);
   void stop() { depth_ = 0; }
   bool running() const { return depth_ > 0; }
-  double elapsed() const { return time_; }  // s since start
 
   /// Which statement is being carried out: where it stands in its file. Line 0: none.
   struct Place {

@@ -66,7 +66,11 @@ struct AsideParameters {
            "Length of such a kick as a share of the longest that its head declares: the opponent is in its "
            "way"},
           self.length);
-    visit({"margin", Unit::Metre, {0, 5}, fixed, "So far within the field the ball must come to rest"},
+    visit({"margin",
+           Unit::Metre,
+           {0, 5},
+           fixed,
+           "A kick past an opponent comes to rest at least this far within the field"},
           self.margin);
     visit({"turnCost",
            Unit::None,

@@ -44,7 +44,8 @@ struct BallTargetParameters {
            Unit::Metre,
            {0, 1},
            fixed,
-           "Then the ball must lie this much nearer to the middle than the 45 degree lines from the posts"},
+           "The place left most open (atGoal) counts only for a ball this much nearer to the middle than the "
+           "45 degree lines from the posts"},
           self.atGoalInside);
     visit({"behindLine", Unit::Metre, {0, 2}, fixed, "Aim this far behind the goal line"}, self.behindLine);
     visit({"insidePost", Unit::Metre, {0, 1}, fixed, "From near: least distance from the posts"},
@@ -132,8 +133,8 @@ struct BallTargetParameters {
            Unit::Metre,
            {0, 10},
            search(0.5, 3),
-           "So far rolls a ball that is pushed: directions that lead out of the field by then cost 1 and are "
-           "not dribbled in; 0: nobody asks"},
+           "A pushed ball rolls this far: directions that lead out of the field by then cost 1 and are not "
+           "dribbled in; 0: nobody asks"},
           self.rollsOn);
     visit({"postMargin",
            Unit::Metre,
@@ -205,7 +206,11 @@ struct ShotParameters {
          search(0.4, 1.0),
          "A shot under way goes on with this share of `lane` and `hits`: who gives it up runs into somebody"},
         self.keep);
-    visit({"keepWithin", Unit::Metre, {0, 3}, fixed, "It does so with the ball nearer than this"},
+    visit({"keepWithin",
+           Unit::Metre,
+           {0, 3},
+           fixed,
+           "A shot is under way, for `keep`, with the ball nearer than this"},
           self.keepWithin);
   }
 };
@@ -261,7 +266,7 @@ struct BallHandlingParameters {
            Unit::Metre,
            {0, 2},
            search(0.18, 0.5),
-           "The same while a touch would roll the ball out of the field"},
+           "Approach point while a touch would roll the ball out of the field: torso behind the ball"},
           self.standOff);
     visit({"circleRadius",
            Unit::Metre,
@@ -285,9 +290,14 @@ struct BallHandlingParameters {
            Unit::Second,
            {0, 2},
            search(0, 1),
-           "It leads behind where the ball will be in this time, or sooner if the robot is there sooner"},
+           "The way behind the ball leads to where the ball will be in this time, or sooner if the robot is "
+           "there sooner"},
           self.circleAhead);
-    visit({"circleRolling", Unit::MetrePerSecond, {0, 10}, search(0, 1), "but a slower ball counts as lying"},
+    visit({"circleRolling",
+           Unit::MetrePerSecond,
+           {0, 10},
+           search(0, 1),
+           "On the way behind the ball a ball slower than this counts as lying"},
           self.circleRolling);
     visit({"turnAlong",
            Unit::None,
@@ -300,7 +310,8 @@ struct BallHandlingParameters {
            Unit::Metre,
            {0, 1},
            search(0, 0.5),
-           "So long before the end of the way behind the ball that turn should be done"},
+           "The turn to the ball's way (turnAlong) should be done this long before the end of the way behind "
+           "the ball"},
           self.turnLast);
     visit({"turnedRoom",
            Unit::Metre,
@@ -324,7 +335,8 @@ struct BallHandlingParameters {
            Unit::Metre,
            {0, 2},
            search(0, 0.4),
-           "if the robot is not farther than this from the ball's way, in front of the ball"},
+           "A robot that is not farther than this from the ball's way goes around it on either side, the one "
+           "that is free (circleRoom)"},
           self.circleEither);
     visit(
         {"dribbleThrough", Unit::Metre, {0, 5}, search(0.2, 1.5), "Dribbling aims this far beyond the ball"},
@@ -354,13 +366,17 @@ struct BallHandlingParameters {
            search(0.3, 2.5),
            "Kick when no opponent is nearer to the ball; a share of it (kickPress) once in place"},
           self.kickOpponentDistance);
-    visit({"kickRoom", Unit::Metre, {0, 10}, search(0.1, 1), "or none is nearer to it than this"},
+    visit({"kickRoom",
+           Unit::Metre,
+           {0, 10},
+           search(0.1, 1),
+           "Before the robot is in its place it may kick when no opponent is nearer to the ball than this"},
           self.kickRoom);
     visit({"kickRoomPace",
            Unit::MetrePerSecond,
            {0, 10},
            search(0.3, 1.2),
-           "and so much more for each second until the foot can meet the ball"},
+           "The room for a kick (kickRoom) grows by this for each second until the foot can meet the ball"},
           self.kickRoomPace);
     visit({"kickLane",
            Unit::Metre,
@@ -416,7 +432,7 @@ struct BallHandlingParameters {
            Unit::Radian,
            {0, 3.2},
            fixed,
-           "unless another direction by more than this is wanted"},
+           "A kick that is lined up (kickHold) is given up for a direction that differs by more than this"},
           self.kickHoldAngle);
     visit({"awaitMargin",
            Unit::Second,
@@ -424,7 +440,11 @@ struct BallHandlingParameters {
            search(0, 5),
            "A ball rolls out before it is kicked when no opponent is there until so long after"},
           self.awaitMargin);
-    visit({"awaitAside", Unit::Metre, {0, 2}, fixed, "and who waits for it keeps this far from its way"},
+    visit({"awaitAside",
+           Unit::Metre,
+           {0, 2},
+           fixed,
+           "Who waits for a ball to roll out keeps this far from its way"},
           self.awaitAside);
     visit({"kickLead",
            Unit::Second,

@@ -1,5 +1,5 @@
 // The behaviours: each answers with an action when the situation calls for it, and with nothing otherwise.
-// One file each in src/team/behaviors/; strategy.cpp orders them.
+// In src/team/behaviors/, a file for each or for two that go together; strategy.cpp orders them.
 //
 // They need the whole situation (situation.h) and remember nothing: the same situation gives the same action.
 #pragma once

@@ -112,7 +112,12 @@ struct DribbleParameters {
            search(0.05, 0.3),
            "Dribble when the ball lies this near to the line, and cone"},
           self.aside);
-    visit({"cone", Unit::None, {0, 5}, search(0.0, 2.0), "times its distance ahead farther"}, self.cone);
+    visit({"cone",
+           Unit::None,
+           {0, 5},
+           search(0.0, 2.0),
+           "Dribble when the ball lies farther from the line by this share of its distance ahead"},
+          self.cone);
     visit({"behind", Unit::Metre, {0, 1}, search(0.0, 0.15), "Dribble when this far behind the ball"},
           self.behind);
   }
@@ -180,7 +185,7 @@ struct ReceiveParameters {
            Unit::Second,
            {0, 2},
            search(0.0, 0.6),
-           "and begins this long before the ball is here"},
+           "The step back before the ball (cushion) begins this long before it is here"},
           self.cushionTime);
   }
 };

@@ -50,7 +50,12 @@ struct ChoiceParameters {
            fixed,
            "Length of a kick in play as a share of the longest that its head declares"},
           self.length);
-    visit({"shotLength", Unit::None, {0.1, 1}, fixed, "The same for a shot, which must cross the line"},
+    visit({"shotLength",
+           Unit::None,
+           {0.1, 1},
+           fixed,
+           "Length of a shot, which must cross the line, as a share of the longest that its kick's head "
+           "declares"},
           self.shotLength);
     visit({"spread", Unit::Radian, {0.001, 1}, fixed, "Standard deviation of the direction of a kick"},
           self.spread);

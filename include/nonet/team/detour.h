@@ -21,10 +21,10 @@ struct Detour {
   bool blocked = false;            // some piece cuts a disc: no way was found with few corners
 };
 
-/// Which way the robot faces (rad), and the way that it goes rather than turn by 1 rad (m).
+/// What turning costs: among ways that begin in different directions a longer one may be better.
 struct Facing {
-  double direction = 0.0;
-  double cost = 0.0;
+  double direction = 0.0;  // in which the robot faces, rad
+  double cost = 0.0;       // of a turn by 1 rad, as m of way
 };
 
 /// Straight pieces from `from` to `to`, around either side of each disc in the way. Exact for one disc but

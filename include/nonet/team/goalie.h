@@ -15,19 +15,19 @@ namespace nonet::team {
 Pose2 guardPlace(const Vector2& p_FB, const world::FieldGeometry& field, const GoalieParameters& parameters,
                  double clear = 0.0);
 
-/// A ball that will be in the goal unless the goalie meets it: where it passes the robot, or under a lob
-/// behind it, as far as it can step back.
+/// A ball that will be in the goal unless the goalie meets it. It meets it where the ball crosses the robot's
+/// lateral axis, or under a lob on a parallel line `back` behind the robot, to which it can step in time.
 struct ComingShot {
-  double time = 0.0;    // s from now until it crosses the robot's lateral axis, or one so far behind it:
-  double aside = 0.0;   // m along that axis, left positive
+  double time = 0.0;    // s from now until the ball crosses that line
+  double aside = 0.0;   // m along the line, left positive
   double height = 0.0;  // m, of the ball's centre there
-  double back = 0.0;    // m
+  double back = 0.0;    // m, of the line behind the robot
 };
 std::optional<ComingShot> comingShot(const Situation& situation);
 
-/// Where the goalie's own kicks go: out of the way of the goal, to the side on which the ball is, in the
-/// middle to where the goalie faces; at a goal kick away from who waits for a push,
-/// elsewhere not through a mate where the other side is free. Own field frame, m.
+/// Where the goalie's own kicks go: away from the goal, to the side on which the ball is, or from the middle
+/// to the side that the goalie faces. A goal kick goes away from the mate that waits for a push; in play the
+/// kick goes to the other side if a mate stands in its way and none there. Own field frame, m.
 Vector2 clearanceTarget(const Situation& situation);
 
 }  // namespace nonet::team

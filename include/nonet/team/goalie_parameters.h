@@ -68,7 +68,7 @@ struct GoalieParameters {
            Unit::Second,
            {0, 5},
            search(0.1, 1),
-           "The same for a ball as high above the ground as it passes aside"},
+           "Dives within this time for a ball that is as high above the ground as it passes aside"},
           self.highDiveTime);
     visit(
         {"blockTime", Unit::Second, {0, 5}, search(0.1, 1), "Blocks when the ball arrives within this time"},
@@ -81,7 +81,11 @@ struct GoalieParameters {
           self.blockReach);
     visit({"diveReach", Unit::Metre, {0, 2}, search(0.1, 0.5), "A ball passing farther aside needs a dive"},
           self.diveReach);
-    visit({"sideStepSpeed", Unit::MetrePerSecond, {0, 2}, search(0, 0.6), "What steps aside add to it"},
+    visit({"sideStepSpeed",
+           Unit::MetrePerSecond,
+           {0, 2},
+           search(0, 0.6),
+           "What steps aside add to the reach each second, after stepDelay"},
           self.sideStepSpeed);
     visit({"stepDelay", Unit::Second, {0, 2}, search(0, 0.6), "Time after which a step aside begins to help"},
           self.stepDelay);
@@ -154,7 +158,8 @@ struct GoalieParameters {
            Unit::MetrePerSecond,
            {0, 5},
            fixed,
-           "if it gets there at this speed, after stepDelay; 0: never"},
+           "Steps back under a high ball (standHeight) if this speed, after stepDelay, takes it there in "
+           "time; 0: never"},
           self.backSpeed);
     visit({"foremost",
            Unit::Second,
@@ -178,9 +183,13 @@ struct GoalieParameters {
            Unit::Second,
            {0, 1},
            fixed,
-           "So long after a kick its speed is known roughly only, from one sighting: waits for another"},
+           "For this long after a kick the ball's speed comes from one sighting: waits for another"},
           self.secondLook);
-    visit({"urgent", Unit::Second, {0, 2}, fixed, "But not with a ball that arrives within this time"},
+    visit({"urgent",
+           Unit::Second,
+           {0, 2},
+           fixed,
+           "Waits for no second look (secondLook) at a ball that arrives within this time"},
           self.urgent);
     visit({"areaMargin",
            Unit::Metre,

@@ -95,7 +95,7 @@ struct SearchParameters {
            Unit::Second,
            {0, 20},
            fixed,
-           "So long the head alone looks around before the body turns"},
+           "The head alone looks around for this long before the body turns"},
           self.headFirst);
     visit({"afterStart",
            Unit::Second,
@@ -247,7 +247,7 @@ struct TouchParameters {
            Unit::Metre,
            {0, 2},
            fixed,
-           "The same for a ball that changed its way beside somebody"},
+           "From torso to ball at a touch that only shows in the ball's changed way"},
           self.turnedReach);
     visit({"turnedAfter",
            Unit::Second,

@@ -34,7 +34,7 @@ struct PassParameters {
     using namespace config;
     visit({"use", Unit::None, {}, fixed, "Whether the ball is passed in open play"}, self.use);
     visit({"least", Unit::Metre, {0, 30}, search(1.5, 5), "Passes are at least so long"}, self.least);
-    visit({"most", Unit::Metre, {0, 30}, search(5, 15), "and at most so long"}, self.most);
+    visit({"most", Unit::Metre, {0, 30}, search(5, 15), "Passes are at most so long"}, self.most);
     visit({"room",
            Unit::Metre,
            {0, 10},
@@ -86,7 +86,11 @@ struct PassParameters {
           self.far);
     visit({"farLeast", Unit::Metre, {0, 30}, search(1.5, 5), "Far from the goal passes are at least so long"},
           self.farLeast);
-    visit({"farBetter", Unit::None, {0, 1}, search(0, 0.05), "and worth so much more than running on"},
+    visit({"farBetter",
+           Unit::None,
+           {0, 1},
+           search(0, 0.05),
+           "Far from the goal a pass is worth at least so much more than running on"},
           self.farBetter);
     visit({"keep",
            Unit::None,
@@ -100,7 +104,13 @@ struct PassParameters {
            search(0.5, 1),
            "Share of `ours` that this one needs, and of what its lane must leave free"},
           self.hold);
-    visit({"same", Unit::Metre, {0, 10}, fixed, "That one ends at most so far from where it did"}, self.same);
+    visit(
+        {"same",
+         Unit::Metre,
+         {0, 10},
+         fixed,
+         "A pass counts as the one that is held (hold) if it ends at most this far from where that one did"},
+        self.same);
     visit({"before",
            Unit::Metre,
            {0, 3},
@@ -113,7 +123,11 @@ struct PassParameters {
            fixed,
            "The receiver forgets a pass that is so much later than announced"},
           self.late);
-    visit({"strays", Unit::Metre, {0, 20}, fixed, "and one whose ball rolls to so far from the place"},
+    visit({"strays",
+           Unit::Metre,
+           {0, 20},
+           fixed,
+           "The receiver forgets a pass whose ball rolls to so far from the place"},
           self.strays);
   }
 };

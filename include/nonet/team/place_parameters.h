@@ -63,7 +63,11 @@ struct FormationParameters {
            search(12, 40),
            "A ball farther than this from the own goal: the farther back joins the attack"},
           self.joinFrom);
-    visit({"joinBehind", Unit::Metre, {0, 10}, search(1, 4), "It is so far behind the ball then"},
+    visit({"joinBehind",
+           Unit::Metre,
+           {0, 10},
+           search(1, 4),
+           "Distance behind the ball of the back that has joined the attack (joinFrom)"},
           self.joinBehind);
     visit({"lineBehindBall",
            Unit::Metre,
@@ -75,7 +79,7 @@ struct FormationParameters {
            Unit::Metre,
            {-5, 30},
            search(0, 10),
-           "And so far behind the foremost opponent, seen from the own goal"},
+           "The nearer back stays this far behind the foremost opponent, seen from the own goal"},
           self.lineBehindOpponent);
     visit({"markWithin",
            Unit::Metre,
@@ -152,7 +156,11 @@ struct SetPlayParameters {
     visit(
         {"cornerBack", Unit::Metre, {0, 10}, fixed, "Corner: towards a point this far in front of the goal"},
         self.cornerBack);
-    visit({"cornerAside", Unit::Metre, {0, 10}, fixed, "and this far aside, where the corner is"},
+    visit({"cornerAside",
+           Unit::Metre,
+           {0, 10},
+           fixed,
+           "Corner: towards a point this far aside from the middle, where the corner is"},
           self.cornerAside);
     visit({"cornerLength", Unit::Metre, {0.5, 10}, fixed, "Corner: how far the ball is kicked"},
           self.cornerLength);
@@ -218,7 +226,11 @@ struct ChargingParameters {
            search(0, 0.8),
            "Only a way whose cosine with that to the opponent is larger leads into it"},
           self.closing);
-    visit({"aside", Unit::Metre, {0, 2}, search(0.2, 0.5), "and one that passes it nearer than this"},
+    visit({"aside",
+           Unit::Metre,
+           {0, 2},
+           search(0.2, 0.5),
+           "Only a way that passes an opponent nearer than this leads into it"},
           self.aside);
     visit({"touched",
            Unit::Metre,
@@ -291,7 +303,8 @@ struct NavigationParameters {
            Unit::Metre,
            {0.05, 5},
            fixed,
-           "The same when giving way: the walk slows down towards a near target"},
+           "When giving way one walks at least as fast as to a place so far ahead: the walk slows down "
+           "towards a near target"},
           self.slowStep);
     visit({"squeezeFor",
            Unit::Metre,

@@ -42,7 +42,7 @@ struct Situation {
   bool goalieClaims = false;  // the goalie has said that it goes to the ball
   bool claims = false;        // one is the goalie and goes to the ball
   std::optional<SetPlay> setPlay{};  // plan of the own set piece that runs
-  std::optional<double> planned{};   // its direction until now if one takes it, rad, own field frame
+  std::optional<double> planned{};   // direction that the robot has chosen for it, rad, own field frame
   std::optional<BallPlay> play{};    // it is one's turn to play the ball
 
   double lastBeam = world::kNever;  // server time at which one asked to be beamed, s

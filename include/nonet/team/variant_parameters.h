@@ -51,7 +51,8 @@ struct VariantParameters {
            fixed,
            "In the own half the ball is played away from the own goal, wherever it goes"},
           self.clearFirst);
-    visit({"clearLength", Unit::Metre, {1, 30}, fixed, "clearFirst: so far"}, self.clearLength);
+    visit({"clearLength", Unit::Metre, {1, 30}, fixed, "With clearFirst: how far the ball is played"},
+          self.clearLength);
   }
 };
 

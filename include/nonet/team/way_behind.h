@@ -27,8 +27,8 @@ struct WayBehind {
 
 /// The shortest way from here to the place behind the ball that stays outside of the curve but for 3 cm, by
 /// which it cuts corners, with the ball on the right hand (side 1: over positive y) or on the left (-1). A
-/// robot inside of it comes no nearer to the ball, again but for 3 cm. Who asks anew with each step cuts
-/// anew: the curve is a guide then, not a wall.
+/// robot inside of it comes no nearer to the ball, again but for 3 cm. A robot that asks for its way in each
+/// cycle cuts a new corner each time, so it may come nearer by more.
 WayBehind wayBehind(const Vector2& from, const BallCurve& curve, double side);
 
 }  // namespace nonet::team

@@ -94,6 +94,22 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
 }  // namespace
 
+std::string HttpRequest::text(std::string_view name) const {
+  const auto found = queries.find(name);
+  if (found == queries.end()) return {};
+  const std::string& coded = found->second;
+  std::string text;
+  for (std::size_t i = 0; i < coded.size(); ++i) {
+    unsigned char letter = 0;
+    const char* begin = coded.data() + i + 1;
+    const bool escaped = coded[i] == '%' && i + 2 < coded.size() &&
+                         std::from_chars(begin, begin + 2, letter, 16).ptr == begin + 2;
+    text += escaped ? static_cast<char>(letter) : coded[i];
+    if (escaped) i += 2;
+  }
+  return text;
+}
+
 std::size_t HttpRequest::number(std::string_view name) const {
   std::size_t value = 0;
   if (const auto found = queries.find(name); found != queries.end()) {

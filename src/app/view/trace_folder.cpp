@@ -26,47 +26,48 @@ nlohmann::json parseLine(const protocol::LogLine& line) {
   const auto number = [](const nlohmann::json& value) { return value.is_number(); };
   const bool whole = json.is_object() && has("game_time", number) && has("time", number) &&
                      has("unum", [](const nlohmann::json& value) { return value.is_number_integer(); }) &&
-                     has("left", [](const nlohmann::json& value) { return value.is_boolean(); });
+                     has("team", [](const nlohmann::json& value) { return value.is_string(); });
   return whole ? json : nlohmann::json(nlohmann::json::value_t::discarded);
 }
 
-// The slot of the robot whose trace this file holds.
-std::optional<std::size_t> slotOf(const std::string& path) {
+}  // namespace
+
+// Whose trace this file holds.
+std::optional<TraceFolder::Player> TraceFolder::playerOf(const std::string& path) {
   protocol::LogReader reader(path);
   protocol::LogLine line;
   for (int i = 0; i < kLinesToLookAt && reader.next(line); ++i) {
     const nlohmann::json cycle = parseLine(line);
     if (cycle.is_discarded()) return std::nullopt;
     const int unum = cycle["unum"];
-    if (unum >= 1 && unum <= 11) return static_cast<std::size_t>(unum - 1 + (cycle["left"] ? 0 : 11));
+    if (unum >= 1 && unum <= 11) return Player(cycle["team"].get<std::string>(), unum);
   }
   return std::nullopt;
 }
 
-}  // namespace
-
 TraceFolder::TraceFolder(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
-    if (const auto slot = slotOf(entry.path().string())) files_[*slot] = entry.path().string();
+    if (const auto player = playerOf(entry.path().string())) files_[*player] = entry.path().string();
   }
   if (files_.empty())
     throw std::runtime_error(folder + ": no traces in it; nonet match --trace FOLDER writes them");
 }
 
-std::string TraceFolder::cycles(std::size_t slot, std::string* problem) const {
-  const auto file = files_.find(slot);
+std::string TraceFolder::cycles(const std::string& team, int unum, std::string* problem) const {
+  const auto file = files_.find({team, unum});
   if (file == files_.end()) return "[]";
   protocol::LogReader reader(file->second);
   protocol::LogLine line;
   std::string text = "[";
-  double next = -1.0;
+  double last = -1.0;
   while (reader.next(line)) {
     const nlohmann::json cycle = parseLine(line);
     if (cycle.is_discarded()) continue;
     const double time = cycle["time"];
-    if (time < next) continue;
-    next = time + kStep;
+    // Where the time goes back the server was started anew, and the trace goes on.
+    if (last <= time && time < last + kStep) continue;
+    last = time;
     if (text.size() > 1) text += ',';
     text += line.text;
   }

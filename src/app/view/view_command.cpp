@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 
 #include <asio.hpp>
 #include <fmt/format.h>
@@ -97,11 +99,11 @@ class Viewer {
     live_.emplace(io_, source_.substr(0, colon), source_.substr(colon + 1), track_);
   }
 
-  std::string traceOf(std::size_t slot) {
+  std::string traceOf(const std::string& team, int unum) {
     if (!traces_) return "[]";
     std::string problem;
-    std::string cycles = traces_->cycles(slot, &problem);
-    if (!problem.empty() && told_.insert(slot).second) fmt::print(stderr, "nonet view: {}\n", problem);
+    std::string cycles = traces_->cycles(team, unum, &problem);
+    if (!problem.empty() && told_.insert(problem).second) fmt::print(stderr, "nonet view: {}\n", problem);
     return cycles;
   }
 
@@ -113,7 +115,9 @@ class Viewer {
               track_.message(request.number("from"), request.number("events"), source_, state)};
     }
     if (request.path == "/trace") {
-      return {200, "application/json", traceOf(request.number("slot"))};
+      return {
+          200, "application/json",
+          traceOf(request.text("team"), static_cast<int>(std::min<std::size_t>(request.number("unum"), 99)))};
     }
     if (request.path == "/shapes") return {200, "application/json", robotShapes().dump()};
     if (request.path.starts_with(kThree)) return threeFile(three_, request.path.substr(kThree.size() - 1));
@@ -125,7 +129,7 @@ class Viewer {
   std::string source_;
   std::string three_;  // folder
   std::optional<TraceFolder> traces_;
-  std::set<std::size_t> told_;  // slots whose trace is torn or damaged
+  std::set<std::string> told_;  // of traces that are torn or damaged
   std::optional<LiveMonitor> live_;
   std::optional<HttpServer> server_;
 };

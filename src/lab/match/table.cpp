@@ -26,25 +26,25 @@ std::string verdict(const TableSettings& table, const SeriesResult& result) {
   return fmt::format("{:+g} accepted", result.verdict == Verdict::Low ? bounds.low : bounds.high);
 }
 
-std::size_t widest(const TableSettings& table) {
-  std::size_t width = 8;
-  for (const SideSettings& side : table.sides) width = std::max(width, side.name.size());
-  return width;
+// Of one against all only the others are named.
+std::string entryName(const TableSettings& table, const TableEntry& entry) {
+  const std::string& other = table.sides[entry.b].name;
+  return table.against ? other : fmt::format("{} - {}", table.sides[entry.a].name, other);
 }
 
 // As the published table of one agent against its variants: the smallest difference first.
-std::string oneAgainstAll(const TableSettings& table, std::vector<const TableEntry*> entries) {
+std::string entryLines(const TableSettings& table, std::vector<const TableEntry*> entries) {
   std::stable_sort(entries.begin(), entries.end(), [](const TableEntry* left, const TableEntry* right) {
     if (!left->result || !right->result) return left->result.has_value() && !right->result;
     return left->result->difference.mean < right->result->difference.mean;
   });
-  const std::size_t width = widest(table);
+  std::size_t width = 8;
+  for (const TableEntry* entry : entries) width = std::max(width, entryName(table, *entry).size());
   std::string text = fmt::format("{:<{}}  {:<14} {:<16} {:>5} {:>4} {:>5} {:>5}  {:<9} {}\n",
                                  table.against ? "against" : "", width, "difference", "95 %", "games", "won",
                                  "tied", "lost", "goals", table.games.sequential ? "verdict" : "");
   for (const TableEntry* entry : entries) {
-    std::string name = table.sides[entry->b].name;
-    if (!table.against) name = fmt::format("{} - {}", table.sides[entry->a].name, name);
+    const std::string name = entryName(table, *entry);
     if (!entry->result) {
       text += fmt::format("{:<{}}  not played yet\n", name, width);
       continue;
@@ -60,7 +60,8 @@ std::string oneAgainstAll(const TableSettings& table, std::vector<const TableEnt
 
 // Row against column.
 std::string matrix(const TableSettings& table, const std::vector<TableEntry>& entries) {
-  const std::size_t width = std::max<std::size_t>(widest(table), 14);
+  std::size_t width = 14;  // of a difference
+  for (const SideSettings& side : table.sides) width = std::max(width, side.name.size());
   std::string text = fmt::format("{:<{}}", "", width);
   for (const SideSettings& side : table.sides) text += fmt::format("  {:<{}}", side.name, width);
   text += "\n";
@@ -138,7 +139,7 @@ std::string tableText(const TableSettings& table, const std::vector<TableEntry>&
   text += fmt::format("games of {:g} minutes, {} a side\n{}, {}: {}\n\n", games.minutes, games.players,
                       games.date, games.version, games.commandLine);
   if (!table.against) text += matrix(table, entries) + "\n";
-  text += oneAgainstAll(table, pointersTo(entries));
+  text += entryLines(table, pointersTo(entries));
   if (games.sequential)
     text += "Differences of entries with a verdict lie too far out: these ended when they had decided.\n";
   return text;

@@ -37,8 +37,8 @@ nlohmann::ordered_json json(const KickShares& shares) {
   return {{"kicks", shares.kicks},
           {"missed", shares.missed},
           {"intended_m", shares.intended},
-          {"carried_of_intended", shares.carried},
-          {"went_of_intended", shares.went},
+          {"carried_of_intended", shares.carriedShare},
+          {"went_of_intended", shares.wentShare},
           {"under_half", shares.underHalf},
           {"direction_error_deg", toDegrees(shares.directionError)},
           {"direction_error_p90_deg", toDegrees(shares.directionErrorTenth)}};
@@ -72,8 +72,8 @@ KickShares kickShares(const std::vector<MatchKick>& kicks) {
     shares.underHalf += kick.carriedShare() < kHalf ? 1.0 / shares.kicks : 0.0;
   }
   shares.intended = quantile(intended, 0.5);
-  shares.carried = quantile(carried, 0.5);
-  shares.went = quantile(went, 0.5);
+  shares.carriedShare = quantile(carried, 0.5);
+  shares.wentShare = quantile(went, 0.5);
   if (directions.empty()) return shares;
   shares.directionError = quantile(directions, 0.5);
   shares.directionErrorTenth = quantile(directions, 0.9);
@@ -162,7 +162,7 @@ std::string MatchKicks::toText() const {
       const KickShares s = kickShares(kicks);
       text += fmt::format(
           "{:<14} {:<16} {:>6} {:>8.0f} {:>11.1f} {:>8.2f} {:>6.2f} {:>12.0f} {:>8.1f} {:>12.1f}\n", team,
-          name, s.kicks, 100.0 * s.missed, s.intended, s.carried, s.went, 100.0 * s.underHalf,
+          name, s.kicks, 100.0 * s.missed, s.intended, s.carriedShare, s.wentShare, 100.0 * s.underHalf,
           toDegrees(s.directionError), toDegrees(s.directionErrorTenth));
     }
   }

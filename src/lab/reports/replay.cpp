@@ -104,7 +104,9 @@ std::optional<Quantiles> quantiles(const std::vector<double>& sample) {
 class Replay {
  public:
   Replay(const std::string& path, const ReplaySettings& settings, const agent::AgentSettings& agentSettings)
-      : settings_(settings), reader_(path), session_({agentSettings, true}) {
+      : settings_(settings),
+        reader_(path),
+        session_({agentSettings, !reader_.header() || agent::syncFromLog(*reader_.header())}) {
     report_.file = path;
     report_.own = reader_.header().has_value();
   }

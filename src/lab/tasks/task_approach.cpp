@@ -10,6 +10,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kApproachDraws = 9;  // stream of what this task draws
+
 constexpr int kApproaches = 3;
 constexpr double kApproachFall = 5.0;  // s
 
@@ -29,7 +31,7 @@ class ApproachTask final : public Task {
                       const TaskSettings& settings) const override {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(9);
+    Random random = Random(seed).fork(kApproachDraws);
     double cost = 0.0, arrived = 0.0, falls = 0.0;
     for (int i = 0; i < kApproaches; ++i) {
       const Approach approach = approachOnce(agent, server, random.next());

@@ -10,6 +10,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kAttackDraws = 10;  // stream of what this task draws
+
 constexpr int kAttacks = 10;
 constexpr double kAttackFall = 0.1;
 constexpr double kCharge = 0.2;
@@ -29,7 +31,7 @@ class AttackTask final : public Task {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const Defence defence{dataAgent(settings, 0), dataAgent(settings, settings.robotType)};
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(10);
+    Random random = Random(seed).fork(kAttackDraws);
     double worth = 0.0, goals = 0.0, falls = 0.0, charges = 0.0;
     for (int i = 0; i < kAttacks; ++i) {
       const Attack attack = attackOnce(agent, defence, server, random.next());

@@ -10,6 +10,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kChaseDraws = 10;  // stream of what this task draws
+
 constexpr double kHardness = 0.5;
 
 class ChaseTask final : public Task {
@@ -26,7 +28,7 @@ class ChaseTask final : public Task {
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
     const TrialSettings setup = trialSettings(parameters, seed, settings);
-    const RunOutcome run = runAfter(setup, Random(seed).fork(10).next(), kHardness);
+    const RunOutcome run = runAfter(setup, Random(seed).fork(kChaseDraws).next(), kHardness);
     return {.fitness = worth(run), .measures = {{"speed_mps", run.fast}, {"falls", run.fell ? 1.0 : 0.0}}};
   }
 };

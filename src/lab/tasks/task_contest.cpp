@@ -10,6 +10,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kContestDraws = 9;  // stream of what this task draws
+
 constexpr int kDuels = 10;
 constexpr double kContestFall = 0.3;
 
@@ -26,7 +28,7 @@ class ContestTask final : public Task {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const agent::AgentSettings opponent = dataAgent(settings, settings.robotType);
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(9);
+    Random random = Random(seed).fork(kContestDraws);
     const DuelTally duels = fightDuels(kDuels, agent, opponent, server, random);
     return {.fitness = duels.won - kContestFall * duels.falls / kDuels,
             .measures = {{"won", duels.won}, {"falls", duels.falls}}};

@@ -10,6 +10,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kDiveDraws = 7;  // stream of what this task draws
+
 constexpr double kFailure = 0.1;      // of the share that a failed first attempt to rise costs
 constexpr double kPerSecond = 0.005;  // of the share per second of rising
 constexpr double kLow = 0.7;          // weight of shots along the ground
@@ -44,7 +46,7 @@ class DiveTask final : public Task {
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
     const TrialSettings setup = trialSettings(parameters, seed, settings);
-    Random random = Random(seed).fork(7);
+    Random random = Random(seed).fork(kDiveDraws);
     double low = 0.0;
     double high = 0.0;
     double time = 0.0;

@@ -11,6 +11,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kDribbleDraws = 7;  // stream of what this task draws
+
 constexpr double kAway = 2.0;  // m/s
 constexpr double kLost = 0.8;  // m/s
 constexpr double kDribbleFall = 0.5;
@@ -34,7 +36,7 @@ class DribbleTask final : public Task {
                       const TaskSettings& settings) const override {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(7);
+    Random random = Random(seed).fork(kDribbleDraws);
     const Dribble straight = dribbleOnce(agent, server, random.next());
     const Dribble slalom = slalomOnce(agent, server, random.next());
     return {.fitness = 0.5 * (worth(straight) + worth(slalom)),

@@ -12,6 +12,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kFootworkDraws = 9;  // stream of what this task draws
+
 constexpr int kApproaches = 2;
 constexpr double kApproachFall = 5.0;  // s
 constexpr int kDuels = 4;
@@ -33,7 +35,7 @@ class FootworkTask final : public Task {
                       const TaskSettings& settings) const override {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(9);
+    Random random = Random(seed).fork(kFootworkDraws);
     TaskResult result;
     double time = 0.0, falls = 0.0;
     for (int i = 0; i < kApproaches; ++i) {

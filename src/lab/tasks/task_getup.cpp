@@ -11,6 +11,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kGetupDraws = 4;  // stream of what this task draws
+
 constexpr int kFallsOfAKind = 2;
 constexpr int kMostTries = 4;           // to fall as wanted
 constexpr double kSecondAttempt = 3.0;  // s, added when the first attempt failed
@@ -33,7 +35,7 @@ class GetupTask final : public Task {
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
     const TrialSettings setup = trialSettings(parameters, seed, settings);
-    Random random = Random(seed).fork(4);
+    Random random = Random(seed).fork(kGetupDraws);
     double cost = 0.0;
     double time = 0.0;
     int firstTries = 0;

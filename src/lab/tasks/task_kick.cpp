@@ -20,6 +20,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kKickDraws = 6;  // stream of what this task draws
+
 constexpr int kKicks = 4;           // a trial: four bearings
 constexpr double kPenalty = -1.0;   // m
 constexpr double kPerSecond = 1.2;  // m/s
@@ -46,7 +48,7 @@ class KickTask : public Task {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
     const motion::KickHead head = kickHead(agent, kick_);
-    Random random = Random(seed).fork(6);
+    Random random = Random(seed).fork(kKickDraws);
     const int first = random.uniform() < 0.5 ? 0 : 5;
     TaskResult result;
     double distance = 0.0, aside = 0.0, time = 0.0, falls = 0.0, fouls = 0.0, failures = 0.0;

@@ -12,6 +12,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kReceiveDraws = 8;  // stream of what this task draws
+
 constexpr int kPasses = 2;
 constexpr double kMostRebound = 1.0;  // m
 constexpr double kReceiveFall = 1.0;
@@ -27,7 +29,7 @@ class ReceiveTask final : public Task {
                       const TaskSettings& settings) const override {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(8);
+    Random random = Random(seed).fork(kReceiveDraws);
     double fitness = 0.0, held = 0.0, rebound = 0.0, falls = 0.0;
     for (int i = 0; i < kPasses; ++i) {
       const Reception pass = receiveOnce(agent, server, random.next());

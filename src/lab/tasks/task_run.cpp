@@ -10,6 +10,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kRunDraws = 10;  // stream of what this task draws
+
 constexpr int kRuns = 2;  // of either kind
 
 class RunTask final : public Task {
@@ -27,7 +29,7 @@ class RunTask final : public Task {
   TaskResult evaluate(const agent::AgentParameters& parameters, std::uint64_t seed,
                       const TaskSettings& settings) const override {
     const TrialSettings setup = trialSettings(parameters, seed, settings);
-    Random random = Random(seed).fork(10);
+    Random random = Random(seed).fork(kRunDraws);
     double fitness = 0.0, fast = 0.0, falls = 0.0, fallsAfter = 0.0, stopTime = 0.0, chase = 0.0;
     for (int i = 0; i < kRuns; ++i) {
       const RunOutcome run = runAhead(setup, random.next());

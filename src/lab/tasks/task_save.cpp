@@ -9,6 +9,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kSaveDraws = 8;  // stream of what this task draws
+
 constexpr int kShots = 4;         // a trial: two rolling, two flying
 constexpr double kDown = 0.3;     // that a robot costs which lies in the end
 constexpr double kOwnGoal = 1.0;  // on top of the goal
@@ -31,7 +33,7 @@ class SaveTask final : public Task {
                       const TaskSettings& settings) const override {
     const agent::AgentSettings goalie = agentOf(parameters, settings);
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(8);
+    Random random = Random(seed).fork(kSaveDraws);
     double rolling = 0.0, flying = 0.0, falls = 0.0, fitness = 0.0;
     for (int i = 0; i < kShots; ++i) {
       const ShotKind kind = i % 2 == 0 ? ShotKind::Rolling : ShotKind::Flying;

@@ -10,6 +10,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kScrumDraws = 9;  // stream of what this task draws
+
 constexpr int kScrums = 4;
 constexpr double kCharge = 0.5;  // m
 
@@ -28,7 +30,7 @@ class ScrumTask final : public Task {
     const agent::AgentSettings agent = agentOf(parameters, settings);
     const agent::AgentSettings opponent = dataAgent(settings, settings.robotType);
     const sim::Settings server = serverOf(settings);
-    Random random = Random(seed).fork(9);
+    Random random = Random(seed).fork(kScrumDraws);
     double gained = 0.0, falls = 0.0, charges = 0.0;
     for (int i = 0; i < kScrums; ++i) {
       const Scrum scrum = scrumOnce(ScrumBall::Contested, agent, opponent, server, random.next());

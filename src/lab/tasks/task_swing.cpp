@@ -26,6 +26,8 @@ namespace nonet::lab {
 
 namespace {
 
+constexpr std::uint64_t kSwingDraws = 7;  // stream of what this task draws
+
 constexpr int kStarts = 1280;        // that are stored: 320 are learned by heart
 constexpr int kSwings = 8;           // a trial
 constexpr double kPenalty = -1.0;    // m
@@ -94,7 +96,7 @@ class SwingTask final : public Task {
     SwingTrial trial(agent, kick_, settings.quickSolver);
     const Starts& starts = startsOf(settings);
     const motion::KickHead head = trial.head();
-    Random random = Random(seed).fork(7);
+    Random random = Random(seed).fork(kSwingDraws);
     double sum = 0.0, squares = 0.0, distance = 0.0, speed = 0.0, falls = 0.0, failures = 0.0;
     for (int i = 0; i < kSwings; ++i) {
       const auto chosen = static_cast<std::size_t>(random.uniform() * static_cast<double>(starts.size()));

@@ -40,7 +40,6 @@ class ArticulatedBodySolver {
   /// (one for each, or none at all).
   void solve(std::span<const Vector6> impulses);
 
-  std::size_t bodyCount() const { return links_.size(); }
   /// Velocity of a body in the solution.
   const Vector6& velocity(std::size_t body) const { return velocities_[body]; }
   /// How much the velocities of the observed bodies change by unit impulses on `pushed`, all joints

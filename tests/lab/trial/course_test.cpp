@@ -1,6 +1,8 @@
-// The obstacle course, and the tasks that score it. The oracle for the score is the count of what happened.
+// The obstacle course, and the tasks that score it. The oracles for the score are walks whose worth is plain:
+// one target, steps on the spot, and nothing but falls.
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,6 +26,16 @@ agent::AgentParameters clumsyParameters() {
        {&parameters.motion.sets.goToTarget, &parameters.motion.sets.positioning}) {
     walk->gait.stepHeight = 0.25;
     walk->gait.maxStepX = 0.25;
+  }
+  return parameters;
+}
+
+/// Steps on the spot.
+agent::AgentParameters lameParameters() {
+  agent::AgentParameters parameters = initialParameters();
+  for (motion::WalkParameters* walk :
+       {&parameters.motion.sets.goToTarget, &parameters.motion.sets.positioning}) {
+    walk->gait.maxStepX = walk->gait.maxStepXBack = walk->gait.maxStepY = walk->gait.maxStepTheta = 1e-4;
   }
   return parameters;
 }
@@ -138,16 +150,31 @@ TEST(Course, PushesMakeTheSameWalkFall) {
   EXPECT_GT(falls, 3);
 }
 
-TEST(StandardCourse, FitnessIsTimeFallsAndUnsteadiness) {
-  const Task& task = findTask("standardCourse");
-  const TaskResult result = task.evaluate(initialParameters(), 7, quickSettings());
-  const double falls =
-      measure(result, "falls") + measure(result, "falls_limited") + measure(result, "falls_changing");
-  const double unsteadiness = measure(result, "unsteadiness_s");
-  EXPECT_NEAR(result.fitness, -measure(result, "time_s") - 20.0 * falls - unsteadiness, 1e-9);
-  EXPECT_GT(unsteadiness, 0.0);
-  EXPECT_GT(measure(result, "time_s"), 120.0);
-  EXPECT_EQ(result.fitness, task.evaluate(initialParameters(), 7, quickSettings()).fitness);
+// Of a course that begins with a single target: the noisy one of 4.5 s.
+TEST(Course, ATargetIsWorthItsDistanceTimesTheShareOfTheTimeThatItTook) {
+  std::uint64_t seed = 1;
+  while (makeCourse(seed).front().legs.size() != 1) ASSERT_LT(++seed, 200U);
+  const CourseLeg target = makeCourse(seed).front().legs.front();
+  const CourseResult result =
+      runCourse(setupOf(initialParameters(), seed), seed, {.mostItems = 1, .untilReached = true});
+  ASSERT_EQ(result.reached, 1);
+  EXPECT_LE(result.distance, target.target.norm());
+  EXPECT_GT(result.distance, target.target.norm() - 0.15);
+  EXPECT_NEAR(result.reward, result.distance * 4.5 / result.time, 1e-9);
+}
+
+// Eight targets, each given up after 30 s.
+TEST(Sidestep, WhoStepsOnTheSpotTakesAllTheTime) {
+  const double fitness = findTask("sidestep").evaluate(lameParameters(), 7, quickSettings()).fitness;
+  EXPECT_LT(fitness, -8 * 30.0) << "light pushes make it lean";
+  EXPECT_GT(fitness, -8 * 30.0 - 2.0);
+}
+
+// Given up after four falls, it counts as 300 s; and four falls on each of the three courses.
+TEST(Sidestep, WhoOnlyFallsPaysForEveryFall) {
+  const double fitness = findTask("sidestep").evaluate(clumsyParameters(), 7, quickSettings()).fitness;
+  EXPECT_LT(fitness, -300.0 - 12 * 20.0);
+  EXPECT_GT(fitness, -300.0 - 12 * 20.0 - 12 * 16.0) << "a second beside itself at the most for each fall";
 }
 
 TEST(StandardCourse, WhoIsGivenUpIsWorseThanTheSlowest) {
@@ -185,13 +212,19 @@ TEST(Course, ANoisyTargetIsReachedSoonerWhenItIsAveraged) {
   EXPECT_LT(with / 6.0, without / 6.0 - 1.0) << "s a course, of which one leg of 4.5 s has a noisy target";
 }
 
-TEST(GoToTarget, FitnessIsTheRewardOfTheCourse) {
-  const agent::AgentParameters parameters = initialParameters();
-  const TaskResult result = findTask("goToTarget").evaluate(parameters, 9, quickSettings());
-  const CourseResult course =
-      runCourse(setupOf(parameters, 9), 9, {.set = motion::WalkSet::GoToTarget, .mostFalls = 4});
-  EXPECT_EQ(result.fitness, course.reward);
-  EXPECT_EQ(measure(result, "falls"), course.falls);
+// It gains nothing, and the four falls after which it is given up cost 5 or 20 each.
+TEST(CourseTasks, WhoOnlyFallsPaysForFourFalls) {
+  for (const auto& [task, cost] :
+       {std::pair("goToTarget", 20.0), std::pair("surefooted", 80.0), std::pair("duel", 80.0)}) {
+    const TaskResult result = findTask(task).evaluate(clumsyParameters(), 9, quickSettings());
+    EXPECT_NEAR(result.fitness, -cost, 2.0) << task;
+    EXPECT_EQ(measure(result, "falls"), 4.0) << task;
+  }
+}
+
+TEST(CourseTasks, WhoStepsOnTheSpotGainsNothing) {
+  for (const char* task : {"goToTarget", "surefooted"})
+    EXPECT_NEAR(findTask(task).evaluate(lameParameters(), 9, quickSettings()).fitness, 0.0, 1.0) << task;
 }
 
 }  // namespace

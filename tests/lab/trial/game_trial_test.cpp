@@ -7,7 +7,7 @@
 
 #include "nonet/math/angle.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

@@ -10,7 +10,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/sim/settings/settings.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

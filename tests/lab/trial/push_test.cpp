@@ -5,7 +5,7 @@
 #include "nonet/lab/trial/robot_trial.h"
 #include "nonet/model/robot_model.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

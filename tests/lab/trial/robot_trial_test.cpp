@@ -7,7 +7,7 @@
 #include "nonet/math/random.h"
 #include "nonet/sim/simulation.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

@@ -11,7 +11,7 @@
 #include "nonet/lab/reports/kick_report.h"
 #include "nonet/lab/tasks/task.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

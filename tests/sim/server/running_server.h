@@ -37,10 +37,13 @@ class Running {
  public:
   explicit Running(const ServerSettings& serverSettings = lockStep(), const Settings& settings = {},
                    std::uint64_t seed = 1)
-      : server(settings, seed, serverSettings), thread_([this] {
-          server.run();
-          ended = true;
-        }) {}
+      : server(settings, seed, serverSettings) {
+    server.onCycle([this](const Simulation&) { lost = server.statistics().lost; });
+    thread_ = std::thread([this] {
+      server.run();
+      ended = true;
+    });
+  }
   ~Running() { stop(); }
   void stop() {
     server.stop();
@@ -49,6 +52,7 @@ class Running {
 
   Server server;
   std::atomic<bool> ended{false};
+  std::atomic<int> lost{0};  // agents that were, as of the last cycle
 
  private:
   std::thread thread_;

@@ -1,14 +1,19 @@
 // The server on the loopback with clients that send too much, too little or too early.
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
 
 #include "sim/server/running_server.h"
 
@@ -73,7 +78,9 @@ void expectPlayUnderFlood(const ServerSettings& serverSettings) {
   EXPECT_LT(secondsSince(begin), 0.6 * kFloodLasts) << "nobody waits for the end of the flood";
   flood.stop();
   // What they have sent is read to its end, share by share. The player's own is one more.
-  std::this_thread::sleep_for(std::chrono::seconds(3));
+  const auto end = LoadClock::now();
+  while (running.lost < kFlooders + 1 && secondsSince(end) < 60.0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   running.stop();
   EXPECT_EQ(running.server.statistics().lost, kFlooders + 1);
 }
@@ -139,20 +146,56 @@ TEST(RealTime, AnInitThatComesWhileTheSceneIsHeldBackCounts) {
   EXPECT_TRUE(hears(second, "(unum 2)", 50));
 }
 
+// Does something as soon as the server says this, before the server goes on.
+class WhenItSays {
+ public:
+  WhenItSays(std::string text, std::function<void()> action)
+      : sink_(std::make_shared<Sink>(std::move(text), std::move(action))) {
+    spdlog::default_logger()->sinks().push_back(sink_);
+  }
+  ~WhenItSays() { std::erase(spdlog::default_logger()->sinks(), sink_); }
+  WhenItSays(const WhenItSays&) = delete;
+  WhenItSays& operator=(const WhenItSays&) = delete;
+
+ private:
+  class Sink : public spdlog::sinks::base_sink<std::mutex> {
+   public:
+    Sink(std::string text, std::function<void()> action)
+        : text_(std::move(text)), action_(std::move(action)) {}
+
+   private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+      const std::string_view said(message.payload.data(), message.payload.size());
+      if (said.find(text_) != std::string_view::npos) action_();
+    }
+    void flush_() override {}
+
+    std::string text_;
+    std::function<void()> action_;
+  };
+
+  std::shared_ptr<spdlog::sinks::sink> sink_;
+};
+
 // It is in the lobby when the match starts without it, and its init comes before its robot is built anew.
 TEST(LockStep, AnInitThatComesJustAfterTheStartCounts) {
   ServerSettings serverSettings = lockStep();
   serverSettings.players = 1;
-  const Running running(serverSettings);
+  std::atomic<Client*> waiting{nullptr};
+  int starts = 0;
+  const WhenItSays whenItSays("the match starts", [&] {
+    ++starts;
+    waiting.load()->send(initText(2, "A"));
+  });
+  Running running(serverSettings);
   Client late(running.server.agentPort());
+  waiting = &late;
   late.send(sceneText(0));
   ASSERT_TRUE(late.receive()) << "the lobby's answer";
   Client ready(running.server.agentPort());
   ready.send(sceneText(0));
   ASSERT_TRUE(ready.receive());
   ready.send(initText(1, "A"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the first cycle begins after 20
-  late.send(initText(2, "A"));
   bool plays = false;
   for (int i = 0; i < 100 && !plays; ++i) {
     ASSERT_TRUE(ready.receive());
@@ -163,6 +206,8 @@ TEST(LockStep, AnInitThatComesJustAfterTheStartCounts) {
     plays = message->find("(unum 2)") != std::string::npos;
   }
   EXPECT_TRUE(plays);
+  running.stop();
+  EXPECT_EQ(starts, 1);
 }
 
 TEST(Lobby, NobodyEntersAsARobotThatDoesNotExist) {

@@ -17,6 +17,8 @@ struct HttpRequest {
 
   /// The query as a number, 0 if it is missing or makes no sense.
   std::size_t number(std::string_view name) const;
+  /// The query as text, with %XX decoded.
+  std::string text(std::string_view name) const;
 };
 
 struct HttpResponse {

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace nonet::app {
 
@@ -13,12 +15,15 @@ class TraceFolder {
   explicit TraceFolder(const std::string& folder);
 
   std::size_t size() const { return files_.size(); }
-  /// The trace of the robot in this slot of the track as a JSON array, one cycle per 0.1 s; "[]" if there is
-  /// none. `problem`, if given, gets one sentence with the file's name if that is torn or damaged.
-  std::string cycles(std::size_t slot, std::string* problem = nullptr) const;
+  /// The trace of this player as a JSON array, one cycle per 0.1 s; "[]" if there is none. `problem`, if
+  /// given, gets one sentence with the file's name if that is torn or damaged.
+  std::string cycles(const std::string& team, int unum, std::string* problem = nullptr) const;
 
  private:
-  std::map<std::size_t, std::string> files_;  // by slot
+  using Player = std::pair<std::string, int>;  // team and number: teams may change sides
+  static std::optional<Player> playerOf(const std::string& path);
+
+  std::map<Player, std::string> files_;
 };
 
 }  // namespace nonet::app

@@ -35,10 +35,10 @@ struct MatchKick {
 /// Over some kicks; medians over all, those that missed the ball with 0.
 struct KickShares {
   int kicks = 0;
-  double missed = 0.0;  // share without contact
-  double intended = 0.0;
-  double carried = 0.0;              // median of carriedShare()
-  double went = 0.0;                 // median of wentShare()
+  double missed = 0.0;               // share without contact
+  double intended = 0.0;             // median, m
+  double carriedShare = 0.0;         // median
+  double wentShare = 0.0;            // median
   double underHalf = 0.0;            // share that was carried less than half as far as intended
   double directionError = 0.0;       // of those with contact: median of |direction|, rad
   double directionErrorTenth = 0.0;  // and what a tenth of them exceeds

@@ -39,8 +39,8 @@ inline constexpr RobotHandle kNoRobot = -1;
 
 struct WorldSettings {
   /// Exact: ODE's dWorldStep, the real server's bits. Quick: the same equations solved along the robots'
-  /// joints (articulated_body_solver.h), five times faster; it differs from Exact by rounding (1e-9 m in a
-  /// step), which only chaos makes visible, after seconds of walking or in a pile of robots.
+  /// joints (articulated_body_solver.h), three to four times faster; it differs from Exact by rounding (1e-9
+  /// m in a step), which only chaos makes visible, after seconds of walking or in a pile of robots.
   enum class Solver : std::uint8_t { Exact, Quick };
   Solver solver = Solver::Exact;
   int threads = 1;  // workers that step separate islands; the result does not depend on it
@@ -52,7 +52,7 @@ struct WorldSettings {
   double goalDepth = 0.6;
   double goalHeight = 0.8;
   double ballRadius = model::kBallRadius;
-  double ballMass = 0.026;
+  double ballMass = 0.026;  // kg
 };
 
 /// Who owns a geom that took part in a contact.
@@ -72,8 +72,8 @@ struct ContactPair {
 
 /// Centre and force of a foot's (toe's) contacts in its own frame (server facts 2.6).
 struct FootContact {
-  Vector3f center = Vector3f::Zero();
-  Vector3f force = Vector3f::Zero();
+  Vector3f center = Vector3f::Zero();  // m
+  Vector3f force = Vector3f::Zero();   // N
 };
 
 /// Independent pieces of work: piece(0) ... piece(count - 1), each to be called once, by any thread.

@@ -47,7 +47,7 @@ class GameState {
   PlayMode playMode() const { return playMode_; }
   /// Does nothing if `mode` is already on.
   void setPlayMode(PlayMode mode);
-  float time() const { return time_; }
+  float time() const { return time_; }  // of the game, s
   void setTime(float time) { time_ = time; }
   /// Seconds in the present mode.
   float modeTime() const;
@@ -77,7 +77,7 @@ class GameState {
   void swapSides();
 
   // -- pass mode, per side
-  float lastPassModeTime(TeamSide side) const;
+  float lastPassModeTime(TeamSide side) const;  // of the game, s, when it last ended
   void setLastPassModeTime(TeamSide side, float time);
   bool passModeClearedToScore(TeamSide side) const;
   void setPassModeClearedToScore(TeamSide side, bool cleared);

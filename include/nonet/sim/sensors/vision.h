@@ -49,11 +49,11 @@ struct VisionNoise {
 /// The constant error of one robot's camera: uniform per axis, head axes.
 Vector3f drawCalibration(Random& random);
 
-/// One direction as the server holds it: 32-bit, degrees.
+/// One sighting as the server holds it, in 32 bits.
 struct SeenPoint {
-  float distance = 0.0F;
-  float azimuth = 0.0F;
-  float elevation = 0.0F;
+  float distance = 0.0F;   // m
+  float azimuth = 0.0F;    // degrees, left positive
+  float elevation = 0.0F;  // degrees, up positive
 
   protocol::Polar onWire() const;  // rounded as the text does
 };

@@ -15,7 +15,7 @@ export class Belief {
     this.group = new THREE.Group();
     this.group.visible = false;
     scene.add(this.group);
-    this.traces = new Map();   // slot -> cycles, or null while they are on the way
+    this.traces = new Map();   // player -> runs of cycles, or null while they are on the way
     this.version = 0;          // grows when something has arrived
     const glass = new THREE.MeshBasicMaterial({color: kColor, transparent: true, opacity: 0.35, depthWrite: false,
                                                side: THREE.DoubleSide});
@@ -46,30 +46,27 @@ export class Belief {
 
   // The cycle that belongs to the picture, if there is one; it is drawn.
   show(track, place, slot) {
-    const cycle = slot >= 0 ? this.cycleAt(slot, track.gameTime(place)) : null;
+    // Teams may change sides: the trace is that of the player who is in this slot then.
+    const team = slot >= 0 ? track.teams(place)[slot < 11 ? 0 : 1] : '';
+    const cycle = slot >= 0 ? this.cycleAt(team, slot % 11 + 1, track.gameTime(place)) : null;
     this.group.visible = Boolean(cycle);
     if (cycle) this.draw(cycle, slot < 11 ? 0 : 11);
     return cycle;
   }
 
-  cycleAt(slot, time) {
-    if (!this.traces.has(slot)) this.fetch(slot);
-    const cycles = this.traces.get(slot);
-    if (!cycles || cycles.length === 0) return null;
-    let low = 0, high = cycles.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (cycles[middle].game_time <= time + 1e-3) low = middle; else high = middle - 1;
-    }
-    // While the clock stands, before a kick-off, it does not tell which of many cycles belongs to the picture.
-    const stands = [low - 1, low + 1].some(i => cycles[i] && cycles[i].game_time === cycles[low].game_time);
-    return !stands && Math.abs(cycles[low].game_time - time) < kLongestGap ? cycles[low] : null;
+  cycleAt(team, unum, time) {
+    const player = `team=${encodeURIComponent(team)}&unum=${unum}`;
+    if (!this.traces.has(player)) this.fetch(player);
+    const runs = this.traces.get(player) || [];
+    const run = runs.findLast(cycles => cycles[0].game_time <= time + kLongestGap &&
+                                        cycles[cycles.length - 1].game_time >= time - kLongestGap);
+    return run ? cycleIn(run, time) : null;
   }
 
-  async fetch(slot) {
-    this.traces.set(slot, null);
-    const reply = await fetch(`/trace?slot=${slot}`);
-    this.traces.set(slot, reply.ok ? await reply.json() : []);
+  async fetch(player) {
+    this.traces.set(player, null);
+    const reply = await fetch(`/trace?${player}`);
+    this.traces.set(player, reply.ok ? runsOf(await reply.json()) : []);
     ++this.version;
   }
 
@@ -144,6 +141,27 @@ export class Belief {
     }
     return html;
   }
+}
+
+// The game's clock goes back where a server was started anew: each time another run begins.
+function runsOf(cycles) {
+  const runs = [];
+  for (const cycle of cycles) {
+    const run = runs[runs.length - 1];
+    if (run && cycle.game_time >= run[run.length - 1].game_time) run.push(cycle); else runs.push([cycle]);
+  }
+  return runs;
+}
+
+function cycleIn(cycles, time) {
+  let low = 0, high = cycles.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (cycles[middle].game_time <= time + 1e-3) low = middle; else high = middle - 1;
+  }
+  // While the clock stands, before a kick-off, it does not tell which of many cycles belongs to the picture.
+  const stands = [low - 1, low + 1].some(i => cycles[i] && cycles[i].game_time === cycles[low].game_time);
+  return !stands && Math.abs(cycles[low].game_time - time) < kLongestGap ? cycles[low] : null;
 }
 
 function inWorld(place, side) {

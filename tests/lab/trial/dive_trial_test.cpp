@@ -1,11 +1,11 @@
 // The goalie's skills on the physics: how far they reach, and that the robot rises from them.
+#include "nonet/lab/trial/dive_trial.h"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "nonet/lab/trial/dive_trial.h"
-
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {

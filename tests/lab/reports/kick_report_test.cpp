@@ -1,17 +1,18 @@
 // Kicks with their approach, at reduced counts: `nonet kick-report` measures a hundred of each.
+#include "nonet/lab/reports/kick_report.h"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "nonet/lab/reports/kick_report.h"
 #include "nonet/math/angle.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
 
-KickReportSettings settingsOf(int type) {
+KickReportSettings reportOf(int type) {
   KickReportSettings settings;
   settings.agent = agentOfType(type);
   return settings;
@@ -21,7 +22,7 @@ class Kicking : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, Kicking, testing::Range(0, model::kRobotTypeCount));
 
 TEST_P(Kicking, GoesFarAndStraightFromAllSides) {
-  KickReportSettings settings = settingsOf(GetParam());
+  KickReportSettings settings = reportOf(GetParam());
   settings.kick = "any";
   settings.trials = 100;
   const KickMeasures kicks = measureKicks(settings).at(0);
@@ -34,7 +35,7 @@ TEST_P(Kicking, GoesFarAndStraightFromAllSides) {
 }
 
 TEST(KickReport, DoesNotDependOnTheNumberOfThreads) {
-  KickReportSettings settings = settingsOf(0);
+  KickReportSettings settings = reportOf(0);
   settings.kick = kickNames(settings.agent).at(0);
   settings.trials = 3;
   settings.threads = 1;
@@ -44,7 +45,7 @@ TEST(KickReport, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(KickReport, NamesTheKicksWhenThereIsNoneOfThatName) {
-  KickReportSettings settings = settingsOf(0);
+  KickReportSettings settings = reportOf(0);
   settings.kick = "kick_nowhere";
   try {
     measureKicks(settings);
@@ -55,7 +56,7 @@ TEST(KickReport, NamesTheKicksWhenThereIsNoneOfThatName) {
 }
 
 TEST(KickReport, MeasuresTheFanOfTheBallsWays) {
-  KickReportSettings settings = settingsOf(4);
+  KickReportSettings settings = reportOf(4);
   settings.kick = "any";
   settings.trials = 2;
   const KickMeasures kicks = measureKicks(settings).at(0);

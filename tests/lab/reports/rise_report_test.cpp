@@ -1,17 +1,16 @@
 // Falling and rising on the physics, at reduced counts: `nonet rise-report` measures a hundred falls of each
 // kind.
+#include "nonet/lab/reports/rise_report.h"
+
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-#include "nonet/lab/reports/rise_report.h"
-#include "nonet/motion/fall_control.h"
-#include "nonet/motion/motion.h"
 #include "nonet/motion/skill_library.h"
 #include "nonet/motion/skill_player.h"
 #include "nonet/motion/walk/engine.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
@@ -78,98 +77,6 @@ TEST(RiseSkills, EveryVariantGetsUp) {
     EXPECT_FALSE(trial.down()) << name;
     EXPECT_LT(trial.tilt(), 0.3) << name;
   }
-}
-
-/// A robot that fell, as motion sees it.
-struct Fallen {
-  explicit Fallen(const TrialSettings& setup)
-      : model(model::robotModel(0)),
-        library(setup.skillFolder, setup.motion.skills),
-        stand(motion::WalkEngine::standAngles(model, setup.motion.sets.positioning)),
-        fall(model, library, setup.motion.fall, stand),
-        player(model, library, stand) {}
-
-  model::JointArray lie(world::Posture posture, double time) {
-    state.time = time;
-    state.body.posture = posture;
-    motion::JointTargets targets;
-    EXPECT_TRUE(fall.update(state, player, targets));
-    return targets.angles;
-  }
-
-  const model::RobotModel& model;
-  motion::SkillLibrary library;
-  model::JointArray stand;
-  motion::FallControl fall;
-  motion::SkillPlayer player;
-  world::WorldState state;
-};
-
-TEST(FallControl, BeginsAnewWhenTheRobotComesToLieOnAnotherSide) {
-  const TrialSettings setup = agentTrialSettings(0);
-  for (const double turnsAt : {0.1, 0.3, 1.0}) {
-    Fallen turned(setup);  // falls on its back and rolls to the right
-    Fallen onBack(setup);  // stays on its back
-    Fallen onSide(setup);  // begins when the first one has rolled
-    for (int cycle = 0; cycle < 90; ++cycle) {
-      const double time = 10.0 + cycle * kCycleTime;
-      const bool rolled = cycle * kCycleTime >= turnsAt - 1e-9;
-      const auto angles = turned.lie(rolled ? world::Posture::FallenRight : world::Posture::FallenBack, time);
-      const auto back = onBack.lie(world::Posture::FallenBack, time);
-      if (rolled && turnsAt < setup.motion.fall.reconsiderTime) {
-        EXPECT_EQ(angles, onSide.lie(world::Posture::FallenRight, time)) << turnsAt << " s, cycle " << cycle;
-      } else {
-        EXPECT_EQ(angles, back) << turnsAt << " s, cycle " << cycle;
-      }
-    }
-    EXPECT_EQ(turned.fall.attempts(), 1) << "it is still the first attempt";
-  }
-}
-
-// It rises, stands for a second, in part of which a skill is played and nobody asks, and falls again.
-TEST(FallControl, AFallAfterASkillIsANewOne) {
-  const TrialSettings setup = agentTrialSettings(0);
-  Fallen robot(setup);
-  robot.state.body.cycleTime = kCycleTime;
-  for (int cycle = 0; cycle < 40; ++cycle) robot.lie(world::Posture::FallenBack, 10.0 + cycle * kCycleTime);
-  ASSERT_EQ(robot.fall.attempts(), 1);
-  motion::JointTargets targets;
-  robot.state.body.posture = world::Posture::Upright;
-  robot.state.body.torsoHeight = robot.model.standingHeight();
-  double time = 10.8;
-  for (bool rises = true; rises; time += kCycleTime) {
-    robot.state.time = time;
-    rises = robot.fall.update(robot.state, robot.player, targets);
-    ASSERT_LT(time, 20.0);
-  }
-  EXPECT_EQ(robot.fall.attempts(), 1);
-  for (int cycle = 0; cycle < 40; ++cycle)
-    robot.lie(world::Posture::FallenBack, time + 1.0 + cycle * kCycleTime);
-  EXPECT_EQ(robot.fall.attempts(), 1);
-}
-
-// A goal falls while a robot rises, and it is beamed to its place: it stands there.
-TEST(Rising, ABeamEndsIt) {
-  const TrialSettings setup = agentTrialSettings(0);
-  motion::Motion motion(model::robotModel(0), setup.motion, setup.skillFolder);
-  world::WorldState state;
-  const auto update = [&] {
-    state.time += kCycleTime;
-    return motion.update(state, motion::Stand{}, {}, {});
-  };
-  state.time = 10.0;
-  update();
-  state.body.posture = world::Posture::FallenBack;
-  for (int i = 0; i < 60; ++i) update();
-  ASSERT_TRUE(motion.fall().rising());
-  state.body.posture = world::Posture::Upright;
-  state.body.putUpright = true;
-  update();
-  EXPECT_FALSE(motion.fall().active());
-  EXPECT_FALSE(motion.state().rising);
-  state.body.putUpright = false;
-  for (int i = 0; i < 100; ++i) update();
-  EXPECT_FALSE(motion.fall().active());
 }
 
 TEST(RiseReport, TheSameSeedGivesTheSameFall) {

@@ -1,12 +1,13 @@
 // Walking on the physics, at reduced counts: `nonet walk-report` and the course of `nonet optimize` measure
 // the same at length.
+#include "nonet/lab/reports/walk_report.h"
+
 #include <gtest/gtest.h>
 
-#include "nonet/lab/reports/walk_report.h"
 #include "nonet/lab/trial/robot_trial.h"
 #include "nonet/math/random.h"
 
-#include "motion/trial_setup.h"
+#include "lab/trial_setup.h"
 
 namespace nonet::lab {
 namespace {
