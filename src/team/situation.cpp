@@ -15,6 +15,8 @@ namespace nonet::team {
 namespace {
 
 constexpr double kGoalKick = 10.0;  // m, of the goalie's longest kick, as it usually comes to rest
+// Where theirs comes down: at their area nobody of ours would have it.
+constexpr double kTheirGoalKick = 9.5;  // m
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Formation placesFor(const Situation& s) {
@@ -25,7 +27,9 @@ Formation placesFor(const Situation& s) {
   Vector2 from = s.ball();
   if (world::isOpponentSetPiece(s.phase())) {
     const Vector2 home = world.field.ownGoal() - from;
-    from += std::min(s.clearOfOpponentKick(), 0.5 * home.norm()) * home.stableNormalized();
+    const bool goalKick = s.phase() == world::Phase::OpponentGoalKick;
+    const double clear = goalKick ? kTheirGoalKick : s.clearOfOpponentKick();
+    from += std::min(clear, 0.5 * home.norm()) * home.stableNormalized();
   }
   // Where the goalie's kick comes down: for all the same place, whatever they see and can kick themselves.
   if (s.phase() == world::Phase::OwnGoalKick && s.parameters.ball.kick)

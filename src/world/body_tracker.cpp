@@ -326,8 +326,9 @@ void BodyTracker::updatePosture(BodyState& state) {
   const double rate = axis.norm() > 0.05 ? state.gyro.dot(axis.normalized()) : 0.0;
   const double preview = tilt + parameters_.fallPreview * rate;
   Posture posture = state.posture;
-  const bool leans = posture == Posture::Falling && state.time - state.postureSince > parameters_.longestLean;
-  if (tilt > parameters_.fallenAngle || (leans && tilt > parameters_.uprightAngle)) {
+  if (first_ || tilt < parameters_.uprightAngle) uprightAt_ = state.time;
+  const bool leans = !isFallen(posture) && state.time - uprightAt_ > parameters_.longestLean;
+  if (tilt > parameters_.fallenAngle || leans) {
     // The direction stays as it was unless it is clearly another: lying half on the side must not flicker.
     const double ahead = -up_R.x();  // > 0: face down
     const double left = -up_R.y();   // > 0: left side down

@@ -38,7 +38,8 @@ TEST(Explain, LooksIntoAllLivesOfTheRobot) {
     Program program(
         {"explain", folder.file(""), "--unum", "3", "--team", "Test", "--at", at, "--data", NONET_SOURCE_DIR},
         folder.file("said.txt"));
-    return std::pair(program.wait(), program.output());
+    const int exit = program.wait();
+    return std::pair(exit, program.output());
   };
   for (const std::string at : {"10.50", "40.20", "41.30"}) {
     const auto [exit, output] = explain(at);

@@ -228,6 +228,7 @@ TEST(Pass, GoesOnUnderPressure) {
     return pass(scene.situation(Role::OnBall)).has_value();
   };
   scene.parameters.pass.better = -1.0;
+  scene.parameters.pass.press = 0.6;
   EXPECT_FALSE(passes(0.7));
   scene.motion.request = lined;
   EXPECT_TRUE(passes(0.7));

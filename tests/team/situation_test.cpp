@@ -253,6 +253,17 @@ TEST(Situation, AtTheirSetPiecesNobodyStandsWhereTheBlockerDoes) {
   }
 }
 
+TEST(Situation, AtTheirGoalKickPlacesAreThoseOfABallThatHasComeDown) {
+  Scene scene;
+  scene.putBall({4.5, 0.0});
+  const Formation there = scene.situation(Role::Stopper).formation;
+  scene.putBall({14.0, 0.0});
+  scene.world.game.phase = world::Phase::OpponentGoalKick;
+  const Formation places = scene.situation(Role::Stopper).formation;
+  for (std::size_t i = 0; i < places.positions.size(); ++i)
+    EXPECT_LT((places.positions[i] - there.positions[i]).norm(), 1e-9) << "role " << i;
+}
+
 // Before the referee puts the ball a touch does not count, and who is near is pushed away.
 TEST(Situation, TheTakerKeepsAwayUntilTheBallIsPut) {
   Scene scene;

@@ -23,7 +23,7 @@ struct PassParameters {
   double farBetter = 0.0;
   double keep = 0.03;
   double hold = 0.85;
-  double press = 0.6;
+  double press = 1.0;
   double same = 1.0;
   double before = 0.3;
   double late = 1.0;
@@ -41,7 +41,12 @@ struct PassParameters {
            search(0.3, 2),
            "Pass only when no opponent is nearer to the ball; a share of it (ball.kickPress) once in place"},
           self.room);
-    visit({"press", Unit::None, {0, 1}, fixed, "A share of it while the pass is lined up"}, self.press);
+    visit({"press",
+           Unit::None,
+           {0, 1},
+           fixed,
+           "Share of that room (room) that a pass needs while it is lined up"},
+          self.press);
     visit({"fit",
            Unit::None,
            {0, 1},

@@ -72,6 +72,7 @@ class BodyTracker {
   Matrix2 covariance_ = Matrix2::Identity();
   double disagreement_ = 0.0;  // smoothed, of feet and accelerometer, in units of the expected one
   double previousHeight_ = 0.0;
+  double uprightAt_ = 0.0;  // the last time at which it did not lean, s
   bool previousGrounded_ = false;
   // What the last message said, to notice that nothing changes any more.
   model::JointArray lastJoints_{};

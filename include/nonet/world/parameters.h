@@ -7,9 +7,9 @@ namespace nonet::world {
 
 struct WorldParameters {
   double fallenAngle = 0.9;
-  double fallingAngle = 0.7;
+  double fallingAngle = 0.75;
   double uprightAngle = 0.45;
-  double fallPreview = 0.1;
+  double fallPreview = 0.05;
   double longestLean = 2.0;
   // For measurements of what each part is worth.
   bool useParticleFilter = true;
@@ -37,11 +37,7 @@ struct WorldParameters {
            fixed,
            "Tilt below which a fallen or falling robot counts as upright again"},
           self.uprightAngle);
-    visit({"fallPreview",
-           Unit::Second,
-           {0.0, 1.0},
-           fixed,
-           "Preview of the tilt for falling: about sqrt(height of the centre of mass / gravity)"},
+    visit({"fallPreview", Unit::Second, {0.0, 1.0}, fixed, "Preview of the tilt for falling"},
           self.fallPreview);
     visit({"longestLean",
            Unit::Second,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <variant>
 
 #include "nonet/math/angle.h"
@@ -29,13 +30,24 @@ constexpr int kMoment = 4;           // cycles
 constexpr double kCalm =
     1.0 / 3.0;  // and until tilt errors are below this share of the one that called for it
 
-bool anyWithin(const std::array<world::PlayerState, world::kTeamSize + 1>& players, const Vector2& p_FR,
-               double distance, std::size_t besides) {
-  for (std::size_t i = 0; i < players.size(); ++i) {
-    if (i == besides || !players[i].known) continue;
-    if ((players[i].X_FP.translation - p_FR).norm() < distance) return true;
-  }
-  return false;
+// On a long way ahead another robot is in it if they meet soon.
+constexpr double kLongWayAngle = 0.4;  // rad between the way and where the robot faces
+constexpr double kLongWayPace = 1.6;   // m/s, about what it runs
+constexpr double kSoon = 1.0;          // s
+
+// How near two points come to each other soon, if they go on as they do; m.
+double nearestSoon(const Vector2& offset, const Vector2& velocity) {
+  const double time = -offset.dot(velocity) / std::max(velocity.squaredNorm(), 1e-6);
+  return (offset + std::clamp(time, 0.0, kSoon) * velocity).norm();
+}
+
+// The velocity on such a way, own field frame.
+std::optional<Vector2> longWay(const Pose2& X_FR, const MotionRequest& request, double far) {
+  const auto* walk = std::get_if<WalkTo>(&request);
+  if (walk == nullptr || walk->target.translation.norm() < far) return std::nullopt;
+  const Vector2& way = walk->target.translation;
+  if (std::abs(directionOf(way)) > kLongWayAngle) return std::nullopt;
+  return kLongWayPace * X_FR.rotate(way.normalized());
 }
 
 WalkCommand slowedDown(double turn) {
@@ -126,7 +138,8 @@ WalkSet WalkControl::chooseSet(const world::WorldState& world, const MotionReque
   const bool canDo = asked != WalkSet::Dribble || (selection_.useDribble && !stumbles());
   if (asked != WalkSet::Automatic && canDo) return asked;
   const bool stand = std::holds_alternative<Stand>(request);
-  if (selection_.usePositioning && (stand || stumbles() || isCrowded(world))) return WalkSet::Positioning;
+  if (selection_.usePositioning && (stand || stumbles() || isCrowded(world, request)))
+    return WalkSet::Positioning;
   if (stand) return set_;
   const auto* walk = std::get_if<WalkTo>(&request);
   if (selection_.useSprint && walk != nullptr && sprints(*walk)) return WalkSet::Sprint;
@@ -159,14 +172,23 @@ bool WalkControl::stumbles() const {
   return engine_.measurement().tilt.largest() > share * selection_.positioningTilt;
 }
 
-bool WalkControl::isCrowded(const world::WorldState& world) const {
+bool WalkControl::isCrowded(const world::WorldState& world, const MotionRequest& request) const {
   const double keep = set_ == WalkSet::Positioning ? kKeepSet : 1.0;
   if (world.ball.known && world.ball.p_RB.norm() < keep * selection_.positioningDistance) return true;
-  const Vector2& p_FR = world.self.X_FR.translation;
-  const double distance = keep * selection_.crowdDistance;
-  const auto self = static_cast<std::size_t>(std::max(world.game.unum, 0));
-  return world.self.localized && (anyWithin(world.teammates, p_FR, distance, self) ||
-                                  anyWithin(world.opponents, p_FR, distance, world.opponents.size()));
+  if (!world.self.localized) return false;
+  const Pose2& X_FR = world.self.X_FR;
+  const std::optional<Vector2> way = longWay(X_FR, request, selection_.crowdFar);
+  const auto crowds = [&](const world::PlayerState& player) {
+    const Vector2 offset = player.X_FP.translation - X_FR.translation;
+    if (!player.known || offset.norm() >= keep * selection_.crowdDistance) return false;
+    if (!way || offset.norm() < keep * selection_.crowdNear) return true;
+    const Vector2 velocity = player.fallen ? Vector2(Vector2::Zero()) : player.v_FP;
+    return nearestSoon(offset, velocity - *way) < keep * selection_.crowdPass;
+  };
+  const auto& mates = world.teammates;
+  const auto self = mates.begin() + std::clamp(world.game.unum, 0, world::kTeamSize);
+  return std::any_of(mates.begin(), self, crowds) || std::any_of(self + 1, mates.end(), crowds) ||
+         std::any_of(world.opponents.begin(), world.opponents.end(), crowds);
 }
 
 }  // namespace nonet::motion

@@ -61,6 +61,30 @@ TEST_F(WalkControlTest, TakesThePositioningSetNearOthersAndKeepsItForAWhile) {
   EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);
 }
 
+TEST_F(WalkControlTest, OnALongWayOnlyThoseInItAreACrowd) {
+  const auto setBeside = [&](const world::PlayerState& mate, const Vector2& target) {
+    world.teammates[7] = mate;
+    WalkControl fresh(model::robotModel(0), WalkSets{}, selection());
+    fresh.update(world, WalkTo{.target = Pose2(target, 0.0)}, targets);
+    return fresh.set();
+  };
+  const Vector2 ahead(3.0, 0.0);
+  const world::PlayerState beside{.X_FP = Pose2(0.3, 0.9, 0.0), .known = true};
+  EXPECT_EQ(setBeside(beside, ahead), WalkSet::GoToTarget);
+  EXPECT_EQ(setBeside(beside, {1.5, 0.0}), WalkSet::Positioning) << "a short way";
+  EXPECT_EQ(setBeside(beside, {0.0, 3.0}), WalkSet::Positioning) << "not where the robot faces";
+  world::PlayerState crossing{.X_FP = Pose2(0.8, 0.5, 0.0), .v_FP = Vector2(0.8, 0.5), .known = true};
+  EXPECT_EQ(setBeside(crossing, ahead), WalkSet::GoToTarget) << "it leaves the way";
+  crossing.v_FP = Vector2(0.0, -0.8);
+  EXPECT_EQ(setBeside(crossing, ahead), WalkSet::Positioning) << "it comes into the way";
+  const world::PlayerState shoulder{.X_FP = Pose2(-0.2, 0.4, 0.0), .v_FP = Vector2(0.0, 0.5), .known = true};
+  EXPECT_EQ(setBeside(shoulder, ahead), WalkSet::Positioning) << "near, wherever it goes";
+  world::PlayerState far{.X_FP = Pose2(0.0, -0.95, 0.0), .v_FP = Vector2(1.6, 1.0), .known = true};
+  EXPECT_EQ(setBeside(far, ahead), WalkSet::Positioning) << "runs along and comes nearer";
+  far.fallen = true;
+  EXPECT_EQ(setBeside(far, ahead), WalkSet::GoToTarget) << "who lies stays where it is";
+}
+
 TEST_F(WalkControlTest, CountsOnlyPlayersItKnows) {
   placeOpponent(0.4, false);
   EXPECT_EQ(setFor(walk), WalkSet::GoToTarget);

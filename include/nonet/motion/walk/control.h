@@ -48,6 +48,9 @@ struct WalkSelection {
   double sidestepTurn = 0.3;
   double positioningDistance = 1.2;
   double crowdDistance = 1.4;
+  double crowdFar = 2.0;
+  double crowdNear = 0.5;
+  double crowdPass = 0.6;
   double positioningTilt = 0.25;
   double blendTime = 0.2;
 
@@ -90,6 +93,25 @@ struct WalkSelection {
            fixed,
            "Positioning: largest distance of another robot, which may bump into this one"},
           self.crowdDistance);
+    visit(
+        {"crowdFar",
+         Unit::Metre,
+         {0.0, 1000.0},
+         fixed,
+         "With a target farther than this, ahead, robots that the way passes at some distance are no crowd"},
+        self.crowdFar);
+    visit({"crowdNear",
+           Unit::Metre,
+           {0.0, 30.0},
+           fixed,
+           "Positioning on a long way (crowdFar): largest distance of another robot, wherever it is"},
+          self.crowdNear);
+    visit({"crowdPass",
+           Unit::Metre,
+           {0.0, 30.0},
+           fixed,
+           "Positioning on a long way (crowdFar): largest distance at which it passes another robot soon"},
+          self.crowdPass);
     visit({"positioningTilt",
            Unit::Radian,
            {0.0, 3.2},
@@ -123,7 +145,7 @@ class WalkControl {
   bool sprints(const WalkTo& request) const;
   bool sidesteps(const MotionRequest& request) const;
   MotionRequest calmed(const world::WorldState& world, const MotionRequest& wanted);
-  bool isCrowded(const world::WorldState& world) const;
+  bool isCrowded(const world::WorldState& world, const MotionRequest& request) const;
   bool stumbles() const;
   Pose2 speedFor(const MotionRequest& request) const;
   double runShare(double cycleTime);
