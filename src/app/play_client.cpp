@@ -70,6 +70,10 @@ void noticeSilentEnd(int socket) {
   set(IPPROTO_TCP, TCP_USER_TIMEOUT, 11000);  // ms; the same if the last answer was not acknowledged
 }
 
+constexpr const char* kTimeStands =
+    "the server's time has stopped, since it has run for six days: it goes on by messages; start the server "
+    "anew when you can";
+
 class PlayClient {
  public:
   explicit PlayClient(const PlaySettings& settings) : settings_(settings), signals_(io_, SIGINT, SIGTERM) {
@@ -275,10 +279,7 @@ class PlayClient {
       warn(log_->error());
     }
     connection.session.receive(message);
-    if (connection.session.timeStands())
-      warn(
-          fmt::format("the server's time has stopped, since it has run for six days: it goes on by messages; "
-                      "start the server anew when you can"));
+    if (connection.session.timeStands()) warn(kTimeStands);
     if (trace_) {
       trace_->add(connection.session.agent());
       warn(trace_->error());

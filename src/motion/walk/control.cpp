@@ -7,6 +7,7 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
+#include "nonet/world/others.h"
 
 namespace nonet::motion {
 
@@ -178,17 +179,13 @@ bool WalkControl::isCrowded(const world::WorldState& world, const MotionRequest&
   if (!world.self.localized) return false;
   const Pose2& X_FR = world.self.X_FR;
   const std::optional<Vector2> way = longWay(X_FR, request, selection_.crowdFar);
-  const auto crowds = [&](const world::PlayerState& player) {
+  return world::anyOther(world, [&](const world::PlayerState& player) {
     const Vector2 offset = player.X_FP.translation - X_FR.translation;
-    if (!player.known || offset.norm() >= keep * selection_.crowdDistance) return false;
+    if (offset.norm() >= keep * selection_.crowdDistance) return false;
     if (!way || offset.norm() < keep * selection_.crowdNear) return true;
     const Vector2 velocity = player.fallen ? Vector2(Vector2::Zero()) : player.v_FP;
     return nearestSoon(offset, velocity - *way) < keep * selection_.crowdPass;
-  };
-  const auto& mates = world.teammates;
-  const auto self = mates.begin() + std::clamp(world.game.unum, 0, world::kTeamSize);
-  return std::any_of(mates.begin(), self, crowds) || std::any_of(self + 1, mates.end(), crowds) ||
-         std::any_of(world.opponents.begin(), world.opponents.end(), crowds);
+  });
 }
 
 }  // namespace nonet::motion

@@ -8,6 +8,7 @@
 #include "nonet/team/behaviors.h"
 #include "nonet/team/detour.h"
 #include "nonet/team/way_behind.h"
+#include "nonet/world/others.h"
 
 #include "team/behaviors/go_behind.h"
 #include "team/behaviors/push.h"
@@ -22,15 +23,10 @@ constexpr double kTurned = 0.5;  // rad
 bool blocked(const Situation& s, const Vector2& place) {
   const Pose2 X_RF = s.world.self.X_FR.inverse();
   const StraightWay way(Vector2::Zero(), place);
-  const auto bars = [&](const world::PlayerState& player) {
-    if (!player.known) return false;
+  return world::anyOther(s.world, [&](const world::PlayerState& player) {
     const Vector2 p_RP = X_RF * player.X_FP.translation;
     return way.placeOf(p_RP).ahead > 0.0 && way.distanceTo(p_RP) < s.parameters.ball.circleRoom;
-  };
-  const auto& mates = s.world.teammates;
-  const auto self = mates.begin() + s.world.game.unum;
-  return std::any_of(s.world.opponents.begin(), s.world.opponents.end(), bars) ||
-         std::any_of(mates.begin(), self, bars) || std::any_of(self + 1, mates.end(), bars);
+  });
 }
 
 // 1: with the ball on the right hand; -1: on the left. On the side where the robot is, unless somebody

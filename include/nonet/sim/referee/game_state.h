@@ -77,7 +77,7 @@ class GameState {
   void swapSides();
 
   // -- pass mode, per side
-  float lastPassModeTime(TeamSide side) const;  // of the game, s, when it last ended
+  float lastPassModeTime(TeamSide side) const;  // of the game, s, when it was last on
   void setLastPassModeTime(TeamSide side, float time);
   bool passModeClearedToScore(TeamSide side) const;
   void setPassModeClearedToScore(TeamSide side, bool cleared);
