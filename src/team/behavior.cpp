@@ -19,20 +19,48 @@ constexpr double kTold = 0.6;       // or where a mate has told so lately:
 constexpr double kLookEvery = 3.0;  // once in this time
 constexpr double kLookFor = 1.0;    // it looks there for so long
 
+motion::HeadRequest lookTowards(const Vector2& p_R) {
+  motion::HeadRequest head;
+  head.kind = motion::HeadRequest::Kind::Look;
+  head.pan = directionOf(p_R);
+  return head;
+}
+
+// The opponent near by that is out of sight and may be run into.
+std::optional<motion::HeadRequest> glanceAtOpponent(const Situation& s) {
+  constexpr double kEvery = 0.4;   // s
+  constexpr double kLength = 0.2;  // s
+  constexpr double kUnseen = 0.15;
+  constexpr double kBallSeen = 0.5;
+  constexpr double kFarFromBall = 1.0;  // m
+  const world::WorldState& world = s.world;
+  if (std::fmod(world.time, kEvery) >= kLength) return std::nullopt;
+  if (world.time - world.ball.lastSeen > kBallSeen || world.ball.p_RB.norm() < kFarFromBall)
+    return std::nullopt;
+  double nearest = s.parameters.glance.nearOpponent;
+  std::optional<motion::HeadRequest> head;
+  for (const world::PlayerState& opponent : world.opponents) {
+    if (!opponent.known || world.time - opponent.lastSighted < kUnseen) continue;
+    const Vector2 p_RP = world.self.X_FR.inverse() * opponent.X_FP.translation;
+    if (p_RP.norm() > nearest) continue;
+    nearest = p_RP.norm();
+    head = lookTowards(p_RP);
+  }
+  return head;
+}
+
 // Along the way, for a moment, if the ball lies elsewhere and may be left unseen.
 std::optional<motion::HeadRequest> glance(const Situation& s, const Action& action) {
   const GlanceParameters& p = s.parameters.glance;
   const auto* walk = std::get_if<motion::WalkTo>(&action.motion);
   if (walk == nullptr || s.role == Role::OnBall || s.role == Role::Goalie) return std::nullopt;
+  if (auto head = glanceAtOpponent(s)) return head;
   const Vector2 way = walk->target.translation;
   const Vector2 ball = s.world.ball.p_RB;
   if (way.norm() < p.farToGo || ball.norm() < p.farFromBall) return std::nullopt;
   if (std::abs(angleDifference(directionOf(way), directionOf(ball))) < p.aside) return std::nullopt;
   if (std::fmod(s.world.time, p.every) >= p.length) return std::nullopt;
-  motion::HeadRequest head;
-  head.kind = motion::HeadRequest::Kind::Look;
-  head.pan = directionOf(way);
-  return head;
+  return lookTowards(way);
 }
 
 Tidings tidingsOf(const Situation& situation) {

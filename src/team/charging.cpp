@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "nonet/math/angle.h"
@@ -37,23 +38,45 @@ bool wouldCharge(const Situation& s, const world::PlayerState& opponent, const V
   return runsAtThem || toBall.norm() > theirs + p.lead;
 }
 
+// Far from the ball, where any contact is a foul: it may be nearer than is believed, and what counts is how
+// the body moves as well as where it wants to go.
+bool wouldBump(const Situation& s, const world::PlayerState& opponent, const Vector2& way) {
+  constexpr double kMostUncertain = 0.4;  // m
+  const ChargingParameters& p = s.parameters.charging;
+  const Vector2 self = s.world.self.X_FR.translation;
+  const Vector2 toOpponent = opponent.X_FP.translation - self;
+  const double gap = toOpponent.norm() - std::min(2.0 * opponent.sigma, kMostUncertain);
+  const double toBall = std::min((s.ball() - self).norm(), (s.ball() - opponent.X_FP.translation).norm());
+  if (gap > p.offBallReach || toBall < p.offBall) return false;
+  const Vector2& moves = s.world.teammates[static_cast<std::size_t>(s.world.game.unum)].v_FP;
+  return way.dot(toOpponent) > 0.0 || moves.dot(toOpponent) > 0.0;
+}
+
+// m/s, on this way (own field frame, a unit vector); infinite: as fast as it can.
+double allowedSpeed(const Situation& s, const Vector2& way) {
+  const ChargingParameters& p = s.parameters.charging;
+  double speed = std::numeric_limits<double>::infinity();
+  for (const world::PlayerState& player : s.world.opponents) {
+    if (!player.known || player.fallen) continue;
+    if (wouldCharge(s, player, way)) speed = std::min(speed, p.speed);
+    if (wouldBump(s, player, way)) speed = std::min(speed, p.offBallSpeed);
+  }
+  return speed;
+}
+
 }  // namespace
 
 std::optional<motion::MotionRequest> spareOpponents(const Situation& s,
                                                     const motion::MotionRequest& request) {
-  const double speed = s.parameters.charging.speed;
   const auto* walk = std::get_if<motion::WalkTo>(&request);
   // In its own area the goalie is let go.
   const bool immune = s.role == Role::Goalie && inOwnArea(s.world.field, s.world.self.X_FR.translation);
-  if (walk == nullptr || speed == 0.0 || !s.acts() || immune) return std::nullopt;
+  if (walk == nullptr || s.parameters.charging.speed == 0.0 || !s.acts() || immune) return std::nullopt;
   const Vector2 step = walk->target.translation;
   if (step.norm() < 1e-3) return std::nullopt;
   const Vector2 way = s.world.self.X_FR.rotate(step).normalized();
-  const auto& opponents = s.world.opponents;
-  const bool charges = std::any_of(opponents.begin(), opponents.end(), [&](const world::PlayerState& player) {
-    return player.known && !player.fallen && wouldCharge(s, player, way);
-  });
-  if (!charges) return std::nullopt;
+  const double speed = allowedSpeed(s, way);
+  if (std::isinf(speed)) return std::nullopt;
   const double slow = walk->stopAtTarget ? std::min(speed, kStopGain * step.norm()) : speed;
   const double turn = std::clamp(kTurnGain * walk->target.rotation, -kTurnSpeed, kTurnSpeed);
   return motion::WalkVelocity{Pose2(slow * step.normalized(), turn)};

@@ -40,6 +40,16 @@ double keepsFor(const Situation& situation, int unum) {
   return situation.parameters.keepBallTime * std::clamp(near, situation.parameters.keepBallFar, 1.0);
 }
 
+// Votes from before a player fell do not know of that. All that are there if each names one that lies.
+std::size_t withoutVotesForWhoLies(const world::WorldState& world,
+                                   std::span<const protocol::RoleVote*> votes) {
+  const auto lies = [&](const protocol::RoleVote* vote) {
+    return world.teammates[static_cast<std::size_t>(playerOnBall(*vote))].fallen;
+  };
+  if (std::all_of(votes.begin(), votes.end(), lies)) return votes.size();
+  return static_cast<std::size_t>(std::remove_if(votes.begin(), votes.end(), lies) - votes.begin());
+}
+
 }  // namespace
 
 void RoleVoting::update(const Situation& situation, int banned) {
@@ -110,15 +120,6 @@ void RoleVoting::vote(const Situation& situation, int banned) {
   vote_ = vote;
 }
 
-// Those from before it fell do not know of that. All that are there if nobody names another.
-std::size_t RoleVoting::withoutVotesForWhoFell(const world::WorldState& world,
-                                               std::span<const protocol::RoleVote*> votes) const {
-  if (onBall_ == 0 || !world.teammates[static_cast<std::size_t>(onBall_)].fallen) return votes.size();
-  const auto names = [&](const protocol::RoleVote* vote) { return playerOnBall(*vote) == onBall_; };
-  if (std::all_of(votes.begin(), votes.end(), names)) return votes.size();
-  return static_cast<std::size_t>(std::remove_if(votes.begin(), votes.end(), names) - votes.begin());
-}
-
 void RoleVoting::count(const Situation& situation, int banned) {
   const world::WorldState& world = situation.world;
   const double voteAge = situation.parameters.agreement.voteAge;
@@ -134,7 +135,7 @@ void RoleVoting::count(const Situation& situation, int banned) {
     // Votes from before a set piece was taken do not know of the ban.
     if (vote != nullptr && (banned == 0 || playerOnBall(*vote) != banned)) votes[number++] = vote;
   }
-  number = withoutVotesForWhoFell(world, {votes.data(), number});
+  number = withoutVotesForWhoLies(world, {votes.data(), number});
   if (number == 0) return;
 
   // First the player on the ball, then the most common of the votes that agree on that; the earlier speaker

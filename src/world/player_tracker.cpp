@@ -185,7 +185,8 @@ void PlayerTracker::see(const protocol::Vision& vision, const Vector3& offset, W
       auto sighting = evaluate(seen, offset, state.self);
       if (!sighting) continue;
       // Who rises has its head up before it stands, and says itself when it does.
-      if (own && state.time - state.radio[static_cast<std::size_t>(seen.unum)].time < kOwnWord)
+      const bool up = sighting->fallen && !*sighting->fallen;
+      if (own && up && state.time - state.radio[static_cast<std::size_t>(seen.unum)].time < kOwnWord)
         sighting->fallen.reset();
       PlayerState* player = nullptr;
       if (!numbered) {

@@ -90,6 +90,29 @@ TEST_F(Stage, WhoWalksFarFromTheBallLooksAlongItsWayNowAndThen) {
   EXPECT_NEAR(along / static_cast<double>(along + atBall), p.length / p.every, 0.15);
 }
 
+// One that stands beside it, and that it lost from sight: it looks there until it sees it.
+TEST_F(Stage, LooksAtAnOpponentNearByThatItDoesNotSee) {
+  scene.putBall({-6.0, 0.0});
+  Scene::put(scene.world.teammates[7], Pose2(-6.3, 0.0, 0.0));
+  scene.stand(Pose2(-8.5, 1.5, 0.0));
+  scene.parameters.formation.stopperBehind = 2.0;
+  const auto looks = [&](double away, double unseen) {
+    Scene::put(scene.world.opponents[3], Pose2(-8.5, 1.5 + away, 0.0));
+    behavior = Behavior(scene.parameters);
+    int there = 0;
+    for (int i = 0; i < 100; ++i) {
+      scene.world.opponents[3].lastSighted = scene.world.time - unseen;
+      const Action& action = cycle();
+      const bool look = action.head->kind == motion::HeadRequest::Kind::Look;
+      there += look && std::abs(action.head->pan - kPi / 2) < 1e-9 ? 1 : 0;
+    }
+    return there;
+  };
+  EXPECT_NEAR(looks(0.8, 0.3), 50, 5);
+  EXPECT_EQ(looks(0.8, 0.05), 0) << "it sees it";
+  EXPECT_EQ(looks(2.0, 0.3), 0) << "far away";
+}
+
 // It has not seen the ball for a while; a mate tells where it is, right or wrong.
 TEST(LookAtBall, WhereAMateSaysItIsByTurnsWithLookingAround) {
   Scene scene;

@@ -34,7 +34,7 @@ TEST(Charging, SlowsDownBeforeAnOpponentThatIsNearerToTheBall) {
 TEST(Charging, RunsOnWhenTheRefereeLetsItPass) {
   EXPECT_TRUE(std::isinf(speedTowards(sceneWith({1.5, 0.0}, {0.9, 0.0})))) << "it is far";
   EXPECT_TRUE(std::isinf(speedTowards(sceneWith({0.3, 0.0}, {0.45, 0.3})))) << "the ball is nearer to us";
-  EXPECT_TRUE(std::isinf(speedTowards(sceneWith({0.2, 0.0}, {0.3, 0.0})))) << "we are at the ball";
+  EXPECT_TRUE(std::isinf(speedTowards(sceneWith({0.12, 0.0}, {0.3, 0.0})))) << "we are at the ball";
   EXPECT_TRUE(std::isinf(speedTowards(sceneWith({-1.0, 0.0}, {-0.4, 0.0})))) << "the way leads elsewhere";
   Scene fallen = sceneWith({0.6, 0.0}, {0.45, 0.1});
   fallen.world.opponents[4].fallen = true;
@@ -47,6 +47,27 @@ TEST(Charging, RunsOnWhenTheRefereeLetsItPass) {
 // Towards the opponent rather than to the ball: that is a charge also for the one who is nearer to it.
 TEST(Charging, SlowsDownWhereTheWayLeadsToTheOpponentRatherThanTheBall) {
   EXPECT_FALSE(std::isinf(speedTowards(sceneWith({0.1, 0.4}, {0.45, 0.0}))));
+}
+
+// Far from the ball any contact is a foul, and none wins anything.
+TEST(Charging, KeepsOffOpponentsFarFromTheBall) {
+  const ChargingParameters& p = TeamParameters{}.charging;
+  const auto speed = [](const Vector2& opponent, double sigma, const Vector2& moves = {1.0, 0.0}) {
+    Scene scene = sceneWith({-4.0, 0.0}, opponent);
+    scene.world.opponents[4].sigma = sigma;
+    scene.world.teammates[5].v_FP = moves;
+    return speedTowards(scene);
+  };
+  EXPECT_NEAR(speed({0.5, 0.0}, 0.02), p.offBallSpeed, 1e-9);
+  EXPECT_LT(p.offBallSpeed, 0.4) << "server facts 4.10: fouls begin at 0.4";
+  EXPECT_TRUE(std::isinf(speed({0.8, 0.0}, 0.02)));
+  EXPECT_NEAR(speed({0.8, 0.0}, 0.15), p.offBallSpeed, 1e-9) << "it may be nearer";
+  EXPECT_TRUE(std::isinf(speed({2.0, 0.0}, 3.0))) << "it may be anywhere";
+  EXPECT_TRUE(std::isinf(speed({-0.4, 0.1}, 0.02))) << "behind";
+  EXPECT_NEAR(speed({-0.4, 0.1}, 0.02, {-1.0, 0.0}), p.offBallSpeed, 1e-9) << "the body still moves there";
+  Scene near = sceneWith({0.9, 0.0}, {0.4, 0.45});
+  near.world.teammates[5].v_FP = {1.0, 0.0};
+  EXPECT_TRUE(std::isinf(speedTowards(near))) << "at the ball the rules of the duel count";
 }
 
 TEST(Charging, ComesNoFasterToAPlaceThanItWouldAnyway) {

@@ -2,6 +2,8 @@
 // on one player on the ball, keep it, and hand it over when a ban or another player's lead says so.
 #include "nonet/team/role_voting.h"
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <set>
 #include <vector>
@@ -227,6 +229,31 @@ TEST(RoleVoting, WhoFallsLosesTheBallAtOnce) {
   team.lying = 4;
   team.run(0.3);
   EXPECT_EQ(team.agreedOnBall(), 5) << "after a third of a second, when most have not spoken again";
+}
+
+// The votes of those who have not spoken since do not bring it back.
+TEST(RoleVoting, AfterAFallTheBallChangesHandsOnce) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Team team(seed);
+    team.goHome();
+    team.place(4) = team.ball + Vector2(-0.3, 0.0);
+    team.place(5) = team.ball + Vector2(-1.4, -0.3);
+    team.run(3.0);
+    ASSERT_EQ(team.agreedOnBall(), 4) << seed;
+    team.lying = 4;
+    std::array<int, kLast + 1> changes{};
+    std::array<int, kLast + 1> last{};
+    last.fill(4);
+    for (int i = 0; i < 50; ++i) {
+      team.cycle();
+      for (int unum = kFirst; unum <= kLast; ++unum) {
+        const auto u = static_cast<std::size_t>(unum);
+        if (team.onBallOf(unum) != last[u]) ++changes[u];
+        last[u] = team.onBallOf(unum);
+      }
+    }
+    EXPECT_LE(*std::max_element(changes.begin(), changes.end()), 1) << seed;
+  }
 }
 
 TEST(RoleVoting, WhoFallsKeepsTheBallIfNobodyIsNear) {

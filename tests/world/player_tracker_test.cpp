@@ -106,5 +106,17 @@ TEST(PlayerTracker, AMateThatRisesIsUpWhenItSaysSo) {
   EXPECT_TRUE(watched.player().fallen) << "it has not spoken for long";
 }
 
+// A body on the ground is seen long before its turn to speak.
+TEST(PlayerTracker, AMateThatFallsIsSeenToLieThoughItJustSaidThatItStands) {
+  Watched watched(1, true);
+  for (int i = 0; i < 12; ++i) watched.cycle({3.0, 0.0}, 0.42);
+  watched.tracker.hear(PlayerTracker::Report{kUnum, Pose2(3.0, 0.0, 0.0), 0.1, false, true}, watched.state);
+  watched.state.radio[kUnum].time = watched.state.time;
+  for (int i = 0; i < 3; ++i) watched.cycle({3.0, 0.0}, 0.42);
+  EXPECT_FALSE(watched.player().fallen);
+  for (int i = 0; i < 6; ++i) watched.cycle({3.0, 0.0}, 0.15);
+  EXPECT_TRUE(watched.player().fallen);
+}
+
 }  // namespace
 }  // namespace nonet::world

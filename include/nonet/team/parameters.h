@@ -64,6 +64,7 @@ struct GlanceParameters {
   double farFromBall = 1.5;
   double farToGo = 0.6;
   double aside = 0.25;
+  double nearOpponent = 1.2;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -79,6 +80,12 @@ struct GlanceParameters {
            fixed,
            "With the way at a smaller angle from the ball both are seen at once"},
           self.aside);
+    visit({"nearOpponent",
+           Unit::Metre,
+           {0, 10},
+           fixed,
+           "Out of the duel it looks now and then at an opponent that is so near and out of sight"},
+          self.nearOpponent);
   }
 };
 

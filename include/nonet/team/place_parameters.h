@@ -200,7 +200,10 @@ struct ChargingParameters {
   double lead = 0.05;
   double closing = 0.3;
   double aside = 0.35;
-  double touched = 0.25;
+  double touched = 0.15;
+  double offBall = 1.0;
+  double offBallReach = 0.55;
+  double offBallSpeed = 0.33;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -238,6 +241,19 @@ struct ChargingParameters {
            fixed,
            "Who is so near to the ball has touched it, and may run into anybody for a second"},
           self.touched);
+    visit({"offBall",
+           Unit::Metre,
+           {0, 100},
+           fixed,
+           "Who is farther from the ball than this, as is the opponent, has nothing to win by a contact"},
+          self.offBall);
+    visit({"offBallReach",
+           Unit::Metre,
+           {0, 3},
+           search(0.4, 0.8),
+           "There it goes slowly at this distance, less what is uncertain of it"},
+          self.offBallReach);
+    visit({"offBallSpeed", Unit::MetrePerSecond, {0, 1}, search(0, 0.4), "At this speed"}, self.offBallSpeed);
   }
 };
 

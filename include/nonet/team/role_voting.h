@@ -32,8 +32,6 @@ class RoleVoting {
  private:
   void vote(const Situation& situation, int banned);
   void count(const Situation& situation, int banned);
-  std::size_t withoutVotesForWhoFell(const world::WorldState& world,
-                                     std::span<const protocol::RoleVote*> votes) const;
 
   RoleAssigner assigner_;
   std::optional<protocol::RoleVote> vote_;

@@ -42,7 +42,7 @@ void WalkEngine::update(const world::BodyState& body, const WalkParameters& p, c
   const Tilt lastTilt = measurement_.tilt;
   measurement_.tilt = tiltAgainst(p.balance, {.pitch = body.pitch, .roll = body.roll}, body.gyro,
                                   wantedLean(p.posture, gait_.state()));
-  moveGait(p, body.cycleTime, command, lastTilt);
+  moveGait(p, body, command, lastTilt);
   footPoses(p, trace_.feet);
   trace_.reach = setLegs(*model_, trace_.feet, targets.angles);
   moveArms(p.posture, targets.angles);
@@ -63,16 +63,18 @@ Pose2 WalkEngine::speed() const {
   return {gait.step.translation / gait.stepDuration, gait.step.rotation / gait.stepDuration};
 }
 
-void WalkEngine::moveGait(const WalkParameters& p, double cycleTime, const WalkCommand& command,
+void WalkEngine::moveGait(const WalkParameters& p, const world::BodyState& body, const WalkCommand& command,
                           const Tilt& lastTilt) {
   const Tilt& tilt = measurement_.tilt;
-  gait_.update(p.gait, {.cycleTime = cycleTime,
+  const Vector2 moves = Eigen::Rotation2Dd(-body.yaw) * body.v_GR.head<2>();
+  gait_.update(p.gait, {.cycleTime = body.cycleTime,
                         .command = command,
                         .stepShare = stepShare(p.balance, measurement_.comError),
                         .stumbles = stumbles(p.recovery, lastTilt),
                         .leans = leansTooFar(tilt),
                         .calm = isCalm(p.balance, measurement_),
-                        .leanToLeft = -tilt.roll});
+                        .leanToLeft = -tilt.roll,
+                        .push = pushOf(p.recovery, tilt, moves)});
   if (standing()) return;
   Pose2 landing = gait_.landing(p.gait, torsoYawStroke(p.posture, gait_.state()));
   landing.translation += landingShift(p.balance, tilt);

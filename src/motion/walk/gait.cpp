@@ -104,7 +104,22 @@ void Gait::updateStepSize(const GaitParameters& p, const GaitInput& input) {
   state_.step = scaled(filteredStep_, input.stepShare);
   // Who stumbles speeds up anew afterwards, instead of leaping back to the full step.
   if (input.stumbles) filteredStep_ = state_.step;
+  followPush(p, input.push);
   updateAcceleration(p, state_.step.translation - before, cycles);
+}
+
+// Who is pushed stays over its feet only if these come along at once.
+void Gait::followPush(const GaitParameters& p, const Push& push) {
+  if (state_.standing) return;
+  const Vector2 fastest(p.maxStepXBack, p.maxStepY);
+  const auto follow = [&](int axis, double speed) {
+    const double step = std::clamp(speed * state_.stepDuration, -fastest[axis], fastest[axis]);
+    double& present = state_.step.translation[axis];
+    if (std::abs(step) > std::abs(present) || step * present < 0.0)
+      present = filteredStep_.translation[axis] = step;
+  };
+  if (push.forward) follow(0, *push.forward);
+  if (push.left) follow(1, *push.left);
 }
 
 // In the walk frame: the change of speed, and that of its direction in a curve.

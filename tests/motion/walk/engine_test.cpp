@@ -380,6 +380,27 @@ TEST(WalkEngine, StepsToWhereItFalls) {
   }
 }
 
+// Whatever way it faces in the frame in which the body's speed is known.
+TEST(WalkEngine, StepsBackWhenItIsPushedBack) {
+  for (const double yaw : {0.0, 1.2, -2.5}) {
+    for (const double speed : {-0.1, -0.3}) {
+      Walker walker(0);
+      walker.body.yaw = yaw;
+      walker.run(Pose2(0.3, 0.0, 0.0), 50);
+      walker.body.pitch = -0.18;
+      const Vector2 v_G = Eigen::Rotation2Dd(yaw) * Vector2(speed, 0.0);
+      walker.body.v_GR = Vector3(v_G.x(), v_G.y(), 0.0);
+      walker.step(Pose2(0.3, 0.0, 0.0));
+      const double step = walker.engine.gait().step.translation.x();
+      if (speed > -0.2) {
+        EXPECT_GT(step, 0.0) << "slower than pushedSpeed";
+      } else {
+        EXPECT_NEAR(step, speed * Gait::stepDuration(walker.parameters.gait), 1e-9) << yaw;
+      }
+    }
+  }
+}
+
 // While it stumbles the error of the centre of mass makes its steps small. Upright again it speeds up as from
 // a stand.
 TEST(WalkEngine, DoesNotLeapBackToFullSpeedAfterAStumble) {

@@ -273,5 +273,28 @@ TEST(Gait, AStandingRobotThatIsPushedMakesSeveralSteps) {
   EXPECT_GT(cycles * kCycleTime, 2.5 * walker.gait.state().stepDuration);
 }
 
+TEST(Gait, FollowsAPushAtOnceWithinItsLargestStep) {
+  const double duration = Gait::stepDuration(GaitParameters{});
+  for (const double speed : {0.2, 5.0}) {
+    GaitWalker walker;
+    walker.run(Pose2(0.3, 0.1, 0.2), 60);
+    const double turn = walker.stepSize().rotation;
+    GaitInput input;
+    input.cycleTime = kCycleTime;
+    input.command = {.speed = Pose2(0.3, 0.1, 0.2), .walk = true};
+    input.push = {.forward = -speed, .left = -speed};
+    walker.step(input);
+    const GaitParameters& p = walker.parameters;
+    EXPECT_DOUBLE_EQ(walker.stepSize().translation.x(), std::max(-p.maxStepXBack, -speed * duration));
+    EXPECT_DOUBLE_EQ(walker.stepSize().translation.y(), std::max(-p.maxStepY, -speed * duration));
+    EXPECT_NEAR(walker.stepSize().rotation, turn, 1e-3);
+    // And from there on it walks as it is told.
+    const double before = walker.stepSize().translation.x();
+    walker.step(Pose2(0.3, 0.1, 0.2));
+    EXPECT_GT(walker.stepSize().translation.x(), before);
+    EXPECT_LT(walker.stepSize().translation.x() - before, p.maxChangeX + 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace nonet::motion

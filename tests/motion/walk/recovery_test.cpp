@@ -46,5 +46,25 @@ TEST(Recovery, LevelledLegsStayUpright) {
   }
 }
 
+// Pitch forward and roll to the right are positive.
+TEST(Recovery, APushIsAMotionToWhereItLeansButAhead) {
+  RecoveryParameters p;
+  p.pushedTilt = 0.12;
+  p.pushedSpeed = 0.15;
+  EXPECT_EQ(pushOf(p, {.pitch = -0.2}, {-0.3, 0.0}).forward, -0.3);
+  EXPECT_FALSE(pushOf(p, {.pitch = -0.2}, {-0.1, 0.0}).forward) << "slow";
+  EXPECT_FALSE(pushOf(p, {.pitch = -0.2}, {0.3, 0.0}).forward) << "it comes up again";
+  EXPECT_FALSE(pushOf(p, {.pitch = -0.1}, {-0.3, 0.0}).forward) << "upright";
+  EXPECT_FALSE(pushOf(p, {.pitch = 0.2}, {0.5, 0.0}).forward) << "ahead";
+  for (const double sign : {-1.0, 1.0}) {
+    const Tilt aside{.roll = -0.2 * sign};
+    EXPECT_EQ(pushOf(p, aside, {0.0, 0.4 * sign}).left, 0.4 * sign);
+    EXPECT_FALSE(pushOf(p, aside, {0.0, 0.1 * sign}).left) << "slow";
+    EXPECT_FALSE(pushOf(p, aside, {0.0, -0.4 * sign}).left) << "it comes up again";
+    EXPECT_FALSE(pushOf(p, {}, {0.0, 0.4 * sign}).left) << "upright";
+    EXPECT_FALSE(pushOf(p, aside, {0.0, 0.4 * sign}).forward);
+  }
+}
+
 }  // namespace
 }  // namespace nonet::motion

@@ -47,7 +47,7 @@ class WalkEngine {
   const Pose2& odometryStep() const { return gait_.odometryStep(); }
 
  private:
-  void moveGait(const WalkParameters& parameters, double cycleTime, const WalkCommand& command,
+  void moveGait(const WalkParameters& parameters, const world::BodyState& body, const WalkCommand& command,
                 const Tilt& lastTilt);
   void footPoses(const WalkParameters& parameters, FootPoses& feet) const;
   void moveArms(const WalkPostureParameters& parameters, model::JointArray& angles) const;

@@ -13,6 +13,7 @@
 #include "nonet/config/parameters.h"
 #include "nonet/math/pose2.h"
 #include "nonet/motion/limbs.h"
+#include "nonet/motion/walk/recovery.h"
 
 namespace nonet::motion {
 
@@ -286,6 +287,7 @@ struct GaitInput {
   bool leans = false;       // too far to stand
   bool calm = true;         // enough to stand
   double leanToLeft = 0.0;  // rad
+  Push push{};              // which the step follows at once
 };
 
 class Gait {
@@ -313,6 +315,7 @@ class Gait {
  private:
   void placeFeet(const GaitParameters& parameters);
   void updateStepSize(const GaitParameters& parameters, const GaitInput& input);
+  void followPush(const GaitParameters& parameters, const Push& push);
   void updateAcceleration(const GaitParameters& parameters, const Vector2& stepChange, double cycles);
   void advancePhase(const GaitInput& input);
   void beginStep(model::Side stance);

@@ -1,11 +1,13 @@
-// Fifth layer of the walk: what brings a robot back from a far tilt.
+// Fifth layer of the walk: what brings a robot back from a far tilt or a push.
 //
-// A body that tilts with level feet commanded stands on their edges, and on the low side the swing foot never
-// clears the ground: small gains that suit a walk keep a robot stepping at that tilt until it falls. So
-// beyond a limit other gains act, on what the tilt is beyond it.
+// A body that tilts with level feet commanded stands on their edges, where the lower swing foot drags: small
+// gains that suit a walk keep it stepping so until it falls. Beyond a limit others act, on what is beyond it.
+// Who is pushed back or aside falls unless the feet come along at once: then the step takes the body's speed.
 //
-// Needs: the tilt. Gives: legs turned against the torso, a shifted landing of the swing foot.
+// Needs: tilt, speed. Gives: legs turned against the torso, a shifted landing of the swing foot, the step.
 #pragma once
+
+#include <optional>
 
 #include "nonet/config/parameters.h"
 #include "nonet/motion/walk/measurement.h"
@@ -16,6 +18,8 @@ struct RecoveryParameters {
   double farTilt = 0.2;
   double levelGain = 0.0;
   double stepGain = 0.0;
+  double pushedTilt = 0.12;
+  double pushedSpeed = 0.15;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -39,11 +43,31 @@ struct RecoveryParameters {
            search(0.0, 0.3),
            "How far the swing foot lands to the side of the fall in m per rad of tilt beyond farTilt"},
           self.stepGain);
+    visit({"pushedTilt",
+           Unit::Radian,
+           {0.0, 3.2},
+           search(0.0, 0.3),
+           "Leaning back or aside by more than this the robot may be pushed"},
+          self.pushedTilt);
+    visit({"pushedSpeed",
+           Unit::MetrePerSecond,
+           {0.0, 10.0},
+           search(0.05, 0.4),
+           "It is pushed if it moves there by more than this faster than it steps: then the step follows at "
+           "once"},
+          self.pushedSpeed);
   }
 };
 
 /// Whether recovery acts.
 bool stumbles(const RecoveryParameters& parameters, const Tilt& tilt);
+/// How fast something pushes the robot back and aside while it leans there; nothing along an axis: no push.
+struct Push {
+  std::optional<double> forward{};  // m/s, negative
+  std::optional<double> left{};     // m/s
+};
+/// `moves`: of the body, m/s, forward and to the left.
+Push pushOf(const RecoveryParameters& parameters, const Tilt& tilt, const Vector2& moves);
 /// The lean to command instead of `lean`.
 Attitude levelled(const RecoveryParameters& parameters, const Attitude& lean, const Tilt& tilt);
 /// Shift of the swing foot's landing, m, forward and to the left.
