@@ -7,8 +7,8 @@
 
 namespace nonet::team {
 
-/// The same way, but slowly, when the referee would call the contact with an opponent on it a charge; nothing
-/// when the request may stay.
+/// The same way, but slowly, when the referee would call the contact with an opponent on it a charge, or when
+/// it may touch one far from the ball, where there is nothing to win; nothing when the request may stay.
 std::optional<motion::MotionRequest> spareOpponents(const Situation& situation,
                                                     const motion::MotionRequest& request);
 

@@ -13,7 +13,7 @@
 #include "nonet/config/parameters.h"
 #include "nonet/math/pose2.h"
 #include "nonet/motion/limbs.h"
-#include "nonet/motion/walk/recovery.h"
+#include "nonet/motion/walk/measurement.h"
 
 namespace nonet::motion {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "nonet/math/types.h"
 
@@ -29,6 +30,12 @@ struct Tilt {
   double rollRate = 0.0;
 
   double largest() const { return std::max(std::abs(pitch), std::abs(roll)); }
+};
+
+/// How fast something pushes the robot back and aside while it leans there; nothing along an axis: no push.
+struct Push {
+  std::optional<double> forward{};  // m/s, negative
+  std::optional<double> left{};     // m/s
 };
 
 struct WalkMeasurement {

@@ -7,8 +7,6 @@
 // Needs: tilt, speed. Gives: legs turned against the torso, a shifted landing of the swing foot, the step.
 #pragma once
 
-#include <optional>
-
 #include "nonet/config/parameters.h"
 #include "nonet/motion/walk/measurement.h"
 
@@ -53,20 +51,14 @@ struct RecoveryParameters {
            Unit::MetrePerSecond,
            {0.0, 10.0},
            search(0.05, 0.4),
-           "It is pushed if it moves there by more than this faster than it steps: then the step follows at "
-           "once"},
+           "It is pushed if it moves there faster than this: then it steps at least as fast at once"},
           self.pushedSpeed);
   }
 };
 
 /// Whether recovery acts.
 bool stumbles(const RecoveryParameters& parameters, const Tilt& tilt);
-/// How fast something pushes the robot back and aside while it leans there; nothing along an axis: no push.
-struct Push {
-  std::optional<double> forward{};  // m/s, negative
-  std::optional<double> left{};     // m/s
-};
-/// `moves`: of the body, m/s, forward and to the left.
+/// What pushes the body while it moves like this, m/s, forward and to the left.
 Push pushOf(const RecoveryParameters& parameters, const Tilt& tilt, const Vector2& moves);
 /// The lean to command instead of `lean`.
 Attitude levelled(const RecoveryParameters& parameters, const Attitude& lean, const Tilt& tilt);
