@@ -52,13 +52,20 @@ bool wouldBump(const Situation& s, const world::PlayerState& opponent, const Vec
   return way.dot(toOpponent) > 0.0 || moves.dot(toOpponent) > 0.0;
 }
 
+// At which one comes near an opponent without being faster at the contact than `p.speed`.
+double speedNear(const ChargingParameters& p, double distance) {
+  constexpr double kContact = 0.38;  // m between two torsos
+  return std::sqrt(p.speed * p.speed + 2.0 * p.brake * std::max(0.0, distance - kContact));
+}
+
 // m/s, on this way (own field frame, a unit vector); infinite: as fast as it can.
 double allowedSpeed(const Situation& s, const Vector2& way) {
   const ChargingParameters& p = s.parameters.charging;
   double speed = std::numeric_limits<double>::infinity();
   for (const world::PlayerState& player : s.world.opponents) {
     if (!player.known || player.fallen) continue;
-    if (wouldCharge(s, player, way)) speed = std::min(speed, p.speed);
+    const double distance = (player.X_FP.translation - s.world.self.X_FR.translation).norm();
+    if (wouldCharge(s, player, way)) speed = std::min(speed, speedNear(p, distance));
     if (wouldBump(s, player, way)) speed = std::min(speed, p.offBallSpeed);
   }
   return speed;

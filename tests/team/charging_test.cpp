@@ -27,8 +27,23 @@ Scene sceneWith(const Vector2& ball, const Vector2& opponent) {
 }
 
 TEST(Charging, SlowsDownBeforeAnOpponentThatIsNearerToTheBall) {
-  EXPECT_NEAR(speedTowards(sceneWith({0.6, 0.0}, {0.45, 0.1})), TeamParameters{}.charging.speed, 1e-9);
-  EXPECT_LT(TeamParameters{}.charging.speed, 0.5) << "server facts 4.10: fouls begin at 0.4";
+  EXPECT_NEAR(speedTowards(sceneWith({0.6, 0.0}, {0.36, 0.1})), TeamParameters{}.charging.speed, 1e-9);
+  EXPECT_LT(TeamParameters{}.charging.speed, 0.4) << "server facts 4.10: fouls begin there";
+}
+
+// Braking evenly: the square of the speed falls by twice the brake with each metre, to that of the contact.
+TEST(Charging, BrakesEvenlyUntilTheContact) {
+  const ChargingParameters& p = TeamParameters{}.charging;
+  const auto speedAt = [](double x) { return speedTowards(sceneWith({x + 0.2, 0.0}, {x, 0.0})); };
+  constexpr double kStep = 0.01;  // m
+  double nearer = speedAt(0.4);
+  EXPECT_GT(nearer, p.speed);
+  EXPECT_LT(nearer, p.speed + 0.1);
+  for (double x = 0.4 + kStep; x < p.reach; x += kStep) {
+    const double speed = speedAt(x);
+    EXPECT_NEAR((speed * speed - nearer * nearer) / kStep, 2.0 * p.brake, 1e-6);
+    nearer = speed;
+  }
 }
 
 TEST(Charging, RunsOnWhenTheRefereeLetsItPass) {
@@ -54,6 +69,7 @@ TEST(Charging, KeepsOffOpponentsFarFromTheBall) {
   const ChargingParameters& p = TeamParameters{}.charging;
   const auto speed = [](const Vector2& opponent, double sigma, const Vector2& moves = {1.0, 0.0}) {
     Scene scene = sceneWith({-4.0, 0.0}, opponent);
+    scene.parameters.charging.reach = 0.0;  // the rules of the duel do not count here
     scene.world.opponents[4].sigma = sigma;
     scene.world.teammates[5].v_FP = moves;
     return speedTowards(scene);
@@ -71,7 +87,7 @@ TEST(Charging, KeepsOffOpponentsFarFromTheBall) {
 }
 
 TEST(Charging, ComesNoFasterToAPlaceThanItWouldAnyway) {
-  const Scene scene = sceneWith({0.6, 0.0}, {0.45, 0.1});
+  const Scene scene = sceneWith({0.6, 0.0}, {0.36, 0.1});
   const auto speed = [&](double left, bool stops) {
     const auto slowly =
         spareOpponents(scene.situation(Role::OnBall), motion::WalkTo{Pose2(left, 0.0, 0.0), stops});

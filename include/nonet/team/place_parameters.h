@@ -195,12 +195,13 @@ struct BeamParameters {
 
 /// Walking slowly into opponents, as the referee wants it (charging.h).
 struct ChargingParameters {
-  double speed = 0.45;
-  double reach = 0.5;
+  double speed = 0.38;
+  double reach = 0.8;
   double lead = 0.05;
   double closing = 0.3;
   double aside = 0.35;
   double touched = 0.15;
+  double brake = 1.5;
   double offBall = 1.0;
   double offBallReach = 0.55;
   double offBallSpeed = 0.33;
@@ -212,10 +213,9 @@ struct ChargingParameters {
            Unit::MetrePerSecond,
            {0, 1},
            search(0, 0.6),
-           "Speed at which one comes into contact: fouls begin at 0.4, but being late costs more than a foul "
-           "now and then; 0: nobody slows down"},
+           "Speed at which one comes into contact: fouls begin at 0.4; 0: nobody slows down"},
           self.speed);
-    visit({"reach", Unit::Metre, {0, 2}, search(0.3, 0.8), "Opponents so near are about to be touched"},
+    visit({"reach", Unit::Metre, {0, 2}, search(0.3, 1.2), "Before opponents so near one brakes"},
           self.reach);
     visit({"lead",
            Unit::Metre,
@@ -241,6 +241,12 @@ struct ChargingParameters {
            fixed,
            "Who is so near to the ball has touched it, and may run into anybody for a second"},
           self.touched);
+    visit({"brake",
+           Unit::MetrePerSecondSquared,
+           {0, 10},
+           search(0, 4),
+           "Deceleration before a contact; 0: from reach on at the speed of the contact"},
+          self.brake);
     visit({"offBall",
            Unit::Metre,
            {0, 100},
