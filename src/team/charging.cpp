@@ -52,9 +52,9 @@ bool wouldBump(const Situation& s, const world::PlayerState& opponent, const Vec
   return way.dot(toOpponent) > 0.0 || moves.dot(toOpponent) > 0.0;
 }
 
-// At which one comes near an opponent without being faster at the contact than `p.speed`.
-double speedNear(const ChargingParameters& p, double distance) {
-  constexpr double kContact = 0.38;  // m between two torsos
+// At which one comes to an opponent that is so far without being faster at the contact than `p.speed`, m/s.
+double speedBefore(const ChargingParameters& p, double distance) {
+  constexpr double kContact = 0.38;  // m between two torsos: navigation.bodyRoom and a margin
   return std::sqrt(p.speed * p.speed + 2.0 * p.brake * std::max(0.0, distance - kContact));
 }
 
@@ -64,8 +64,10 @@ double allowedSpeed(const Situation& s, const Vector2& way) {
   double speed = std::numeric_limits<double>::infinity();
   for (const world::PlayerState& player : s.world.opponents) {
     if (!player.known || player.fallen) continue;
-    const double distance = (player.X_FP.translation - s.world.self.X_FR.translation).norm();
-    if (wouldCharge(s, player, way)) speed = std::min(speed, speedNear(p, distance));
+    if (wouldCharge(s, player, way)) {
+      const double distance = (player.X_FP.translation - s.world.self.X_FR.translation).norm();
+      speed = std::min(speed, speedBefore(p, distance));
+    }
     if (wouldBump(s, player, way)) speed = std::min(speed, p.offBallSpeed);
   }
   return speed;
