@@ -41,7 +41,7 @@ TEST(GoBehind, LeavesRoomToTurnAtASetPiece) {
     scene.putBall({0.0, 0.0});
     Situation s = scene.situation(Role::OnBall);
     s.play = playTowards(s, {15.0, 0.0}, KickUse::Clear);
-    const auto& walk = std::get<motion::WalkTo>(goBehindBall(s).value().motion);
+    const motion::WalkTo walk = std::get<motion::WalkTo>(goBehindBall(s).value().motion);
     return (s.world.self.X_FR * walk.target.translation).norm();
   };
   const BallHandlingParameters p;
