@@ -63,6 +63,7 @@ TEST_F(Installed, PlaysWithItsOwnData) {
   EXPECT_THAT(json, HasSubstr("\"flawless\": true"));
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they want to be loaded first
 // From Python, with the installation's own data.
 TEST_F(Installed, ItsLibraryServesLearners) {
   const auto [code, output] =
@@ -77,6 +78,7 @@ TEST_F(Installed, ItsLibraryServesLearners) {
   EXPECT_EQ(failed, 1);
   EXPECT_THAT(error, HasSubstr(file + ": is missing"));
 }
+#endif
 
 TEST_F(Installed, ItsScriptsStartAndStopAgents) {
   Program server({"serve", "--port", "0", "--monitor-port", "0"}, folder.file("server.txt"));
