@@ -309,6 +309,21 @@ TEST_F(Scripts, StartTheAgentsThatTheLeagueAsksForAndStopExactlyThose) {
   EXPECT_NE(run("kill.sh", {}).find("nothing was started"), std::string::npos);
 }
 
+TEST_F(Scripts, EachAgentHasARecordAndATraceOfItsOwn) {
+  serve({});
+  const std::string records = folder.file("records"), traces = folder.file("a/b");
+  run("start.sh", {"127.0.0.1", std::to_string(port), "-n", "2", "--record", records, "--trace", traces});
+  EXPECT_TRUE(server->says("number 2 of team Nonet")) << server->output();
+  pause(0.5);  // so that something is in them
+  run("kill.sh", {});
+  for (const std::string name : {"Nonet_1", "Nonet_2"}) {
+    EXPECT_GT(fs::file_size(fs::path(traces) / (name + ".trace")), 0U);
+    Program replay(NONET_BINARY, {"replay", (fs::path(records) / (name + ".zst")).string()},
+                   folder.file("replay.txt"));
+    EXPECT_EQ(replay.wait(), 0) << replay.output();
+  }
+}
+
 TEST_F(Scripts, TheChallengePlayerBeamsToItsPlace) {
   serve({});
   run("startChallengePlayer.sh", {"127.0.0.1", std::to_string(port), "-3.5", "2", "keepaway"});

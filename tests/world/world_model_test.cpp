@@ -1,4 +1,4 @@
-// The whole world stage: game state, players, radio, both sides, no allocation, same input same output.
+// The whole world stage: players, radio, both sides, no allocation, same input same output.
 #include "nonet/world/world_model.h"
 
 #include <cmath>
@@ -8,7 +8,6 @@
 
 #include "nonet/math/angle.h"
 #include "nonet/world/ball_law.h"
-#include "nonet/world/game_tracker.h"
 #include "nonet/world/set_piece_spot.h"
 #include "nonet/world/vision_frame.h"
 
@@ -20,130 +19,6 @@ namespace {
 
 using protocol::PlayMode;
 using protocol::TeamSide;
-
-protocol::Percept gameMessage(double time, PlayMode mode, double gameTime = 0.0) {
-  protocol::Percept percept;
-  percept.time = time;
-  percept.game.playMode = mode;
-  percept.game.time = gameTime;
-  percept.game.scoreLeft = 1;
-  percept.game.scoreRight = 0;
-  return percept;
-}
-
-// The referee gives the ball free after 15 s (server facts 4.1); before that somebody has touched it.
-TEST(GameTracker, KnowsWhetherTheSetPieceWasTaken) {
-  for (const double lasted : {3.0, 14.0, 15.0, 15.04}) {
-    GameTracker tracker(protocol::TeamName("Us"));
-    GameState state;
-    tracker.update(gameMessage(1.0, PlayMode::PlayOn), state);
-    tracker.update(gameMessage(2.0, PlayMode::KickInLeft), state);
-    tracker.update(gameMessage(2.0 + lasted, PlayMode::PlayOn), state);
-    EXPECT_EQ(state.ballDropped, lasted >= 15.0) << lasted;
-    tracker.update(gameMessage(30.0, PlayMode::PlayOn), state);
-    EXPECT_EQ(state.ballDropped, lasted >= 15.0) << "as long as the phase lasts";
-    tracker.update(gameMessage(31.0, PlayMode::KickInLeft), state);
-    EXPECT_FALSE(state.ballDropped);
-  }
-}
-
-TEST(GameTracker, SeesPlayModesFromTheOwnSide) {
-  for (const TeamSide side : {TeamSide::Left, TeamSide::Right}) {
-    GameTracker tracker(protocol::TeamName("Us"));
-    GameState state;
-    protocol::Percept percept = gameMessage(1.0, PlayMode::BeforeKickOff);
-    percept.game.side = side;
-    percept.game.unum = 5;
-    tracker.update(percept, state);
-    EXPECT_EQ(state.unum, 5);
-    EXPECT_EQ(state.ownScore, side == TeamSide::Left ? 1 : 0);
-    tracker.update(gameMessage(2.0, PlayMode::KickOffLeft), state);
-    EXPECT_EQ(state.phase, side == TeamSide::Left ? Phase::OwnKickOff : Phase::OpponentKickOff);
-    EXPECT_DOUBLE_EQ(state.phaseSince, 2.0);
-    tracker.update(gameMessage(5.0, PlayMode::KickOffLeft), state);
-    EXPECT_DOUBLE_EQ(state.phaseSince, 2.0);
-    tracker.update(gameMessage(6.0, PlayMode::CornerKickRight), state);
-    EXPECT_EQ(state.phase, side == TeamSide::Right ? Phase::OwnCorner : Phase::OpponentCorner);
-    tracker.update(gameMessage(7.0, PlayMode::GoalLeft), state);
-    EXPECT_EQ(state.phase, side == TeamSide::Left ? Phase::OwnGoal : Phase::OpponentGoal);
-  }
-}
-
-TEST(GameTracker, ScoresThatChangePlacesTellTheChangeOfSides) {
-  GameTracker tracker(protocol::TeamName("Us"));
-  GameState state;
-  protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-  first.game.side = TeamSide::Left;
-  tracker.update(first, state);
-  tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
-  protocol::Percept second = gameMessage(3.0, PlayMode::BeforeKickOff, 300.0);
-  second.game.scoreLeft = 0;
-  second.game.scoreRight = 1;
-  tracker.update(second, state);
-  EXPECT_EQ(state.half, 2);
-  EXPECT_TRUE(state.sidesSwapped);
-  EXPECT_EQ(state.ownScore, 1);
-  EXPECT_EQ(state.opponentScore, 0);
-}
-
-TEST(GameTracker, StaysWhenTheServerDoesNotChangeSides) {
-  GameTracker tracker(protocol::TeamName("Us"));
-  GameState state;
-  protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-  first.game.side = TeamSide::Right;
-  tracker.update(first, state);
-  tracker.noticePlace(-3.0, 1.5, state);  // only after half time
-  EXPECT_FALSE(state.sidesSwapped);
-  tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
-  tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
-  EXPECT_FALSE(tracker.sideKnown());
-  tracker.noticePlace(6.0, 3.06, state);  // own half of the right team
-  EXPECT_TRUE(tracker.sideKnown());
-  tracker.noticePlace(-6.0, 3.12, state);
-  EXPECT_FALSE(state.sidesSwapped);
-}
-
-TEST(GameTracker, TheFirstMessageOfHalfTimeProvesNothing) {
-  // The server has changed the sides and moved the robots, but its first message still shows them where they
-  // stood: in the half that was theirs, or attacking in the other one.
-  for (const bool changed : {false, true}) {
-    for (const double before : {-8.0, 8.0}) {
-      for (const PlayMode last : {PlayMode::PlayOn, PlayMode::GoalRight}) {
-        GameTracker tracker(protocol::TeamName("Us"));
-        GameState state;
-        protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-        first.game.side = TeamSide::Left;
-        first.game.scoreLeft = 0;  // the score does not help
-        tracker.update(first, state);
-        tracker.update(gameMessage(2.0, last, 299.0), state);
-        tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
-        tracker.noticePlace(before, 3.0, state);
-        EXPECT_FALSE(tracker.sideKnown());
-        EXPECT_FALSE(state.sidesSwapped);
-        tracker.noticePlace(changed ? 2.5 : -2.5, 3.02, state);
-        EXPECT_TRUE(tracker.sideKnown());
-        EXPECT_EQ(state.sidesSwapped, changed);
-      }
-    }
-  }
-}
-
-TEST(GameTracker, WhoCouldNotLookAroundFindsOutAtTheKickOff) {
-  GameTracker tracker(protocol::TeamName("Us"));
-  GameState state;
-  protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-  first.game.side = TeamSide::Left;
-  tracker.update(first, state);
-  tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
-  tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
-  tracker.update(gameMessage(8.0, PlayMode::KickOffLeft, 300.0), state);
-  EXPECT_EQ(state.phase, Phase::OwnKickOff);
-  tracker.noticePlace(1.0, 8.0, state);  // the taker of the kick-off may stand there
-  EXPECT_FALSE(tracker.sideKnown());
-  tracker.noticePlace(4.0, 8.06, state);
-  EXPECT_TRUE(state.sidesSwapped);
-  EXPECT_EQ(state.phase, Phase::OpponentKickOff);
-}
 
 /// Messages of a robot that stands at a known place and sees a ball and two players.
 class Scene {
