@@ -22,17 +22,16 @@ double angleBetween(const Vector2& a, const Vector2& b) {
   return std::abs(angleDifference(directionOf(a), directionOf(b)));
 }
 
-// The referee would call it if we ran into this opponent on this way (own field frame, a unit vector).
-bool wouldCharge(const Situation& s, const world::PlayerState& opponent, const Vector2& way) {
+// The referee would call it if we ran into the opponent that is `toOpponent` away on this way (a unit vector;
+// both in the own field frame).
+bool wouldCharge(const Situation& s, const Vector2& toOpponent, const Vector2& way) {
   const ChargingParameters& p = s.parameters.charging;
-  const Vector2 self = s.world.self.X_FR.translation;
-  const Vector2 toOpponent = opponent.X_FP.translation - self;
-  const Vector2 toBall = s.ball() - self;
+  const Vector2 toBall = s.ball() - s.world.self.X_FR.translation;
   if (toOpponent.norm() > p.reach || way.dot(toOpponent.normalized()) < p.closing) return false;
   const double passes = std::abs(way.x() * toOpponent.y() - way.y() * toOpponent.x());
   if (passes > p.aside) return false;
   if (toBall.norm() < p.touched) return false;
-  const double theirs = (s.ball() - opponent.X_FP.translation).norm();
+  const double theirs = (toBall - toOpponent).norm();
   const double besideBall = angleBetween(way, toBall);
   const bool runsAtThem = besideBall >= toRadians(30.0) && besideBall >= angleBetween(way, toOpponent);
   return runsAtThem || toBall.norm() > theirs + p.lead;
@@ -40,14 +39,12 @@ bool wouldCharge(const Situation& s, const world::PlayerState& opponent, const V
 
 // Far from the ball, where any contact is a foul: it may be nearer than is believed, and what counts is how
 // the body moves as well as where it wants to go.
-bool wouldBump(const Situation& s, const world::PlayerState& opponent, const Vector2& way) {
+bool wouldBump(const Situation& s, const Vector2& toOpponent, double sigma, const Vector2& way) {
   constexpr double kMostUncertain = 0.4;  // m
   const ChargingParameters& p = s.parameters.charging;
-  const Vector2 self = s.world.self.X_FR.translation;
-  const Vector2 toOpponent = opponent.X_FP.translation - self;
-  const double gap = toOpponent.norm() - std::min(2.0 * opponent.sigma, kMostUncertain);
-  const double toBall = std::min((s.ball() - self).norm(), (s.ball() - opponent.X_FP.translation).norm());
-  if (gap > p.offBallReach || toBall < p.offBall) return false;
+  const double gap = toOpponent.norm() - std::min(2.0 * sigma, kMostUncertain);
+  const Vector2 toBall = s.ball() - s.world.self.X_FR.translation;
+  if (gap > p.offBallReach || std::min(toBall.norm(), (toBall - toOpponent).norm()) < p.offBall) return false;
   const Vector2& moves = s.world.teammates[static_cast<std::size_t>(s.world.game.unum)].v_FP;
   return way.dot(toOpponent) > 0.0 || moves.dot(toOpponent) > 0.0;
 }
@@ -64,11 +61,9 @@ double allowedSpeed(const Situation& s, const Vector2& way) {
   double speed = std::numeric_limits<double>::infinity();
   for (const world::PlayerState& player : s.world.opponents) {
     if (!player.known || player.fallen) continue;
-    if (wouldCharge(s, player, way)) {
-      const double distance = (player.X_FP.translation - s.world.self.X_FR.translation).norm();
-      speed = std::min(speed, speedBefore(p, distance));
-    }
-    if (wouldBump(s, player, way)) speed = std::min(speed, p.offBallSpeed);
+    const Vector2 toOpponent = player.X_FP.translation - s.world.self.X_FR.translation;
+    if (wouldCharge(s, toOpponent, way)) speed = std::min(speed, speedBefore(p, toOpponent.norm()));
+    if (wouldBump(s, toOpponent, player.sigma, way)) speed = std::min(speed, p.offBallSpeed);
   }
   return speed;
 }
