@@ -17,11 +17,11 @@ import hashlib
 import json
 import pathlib
 import shlex
-import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from nonet_program import ROOT, claim, data_files, data_of, fingerprint, output_of
+
 TYPES = range(5)
 
 
@@ -30,7 +30,7 @@ def percent(share):
 
 
 class Section:
-    """One table: for every row `command(row)` is run, and its JSON answer, or nothing where there is none, becomes cells."""
+    """One table: for every row `command(row)` is run; `cells` makes named rows of cells from its JSON answer."""
 
     def __init__(self, title, head, command, cells, rows=TYPES, row_name=lambda row: str(row)):
         self.title, self.head, self.command, self.cells, self.rows, self.row_name = title, head, command, cells, rows, row_name
@@ -69,33 +69,18 @@ def of_rise(rise):
             for side in (rise[key] for key in ("front", "back", "side"))]
 
 
-def of_approach(ball):
-    return [f"{ball['approach_s']['mean']:.2f} s", percent(ball["approach_share"]["mean"]), str(ball["falls_of"]["approach"])]
+def seconds(value):
+    return f"{value:.2f} s"
 
 
-def of_run(ball):
-    return [f"{ball['run_mps']['mean']:.2f} m/s", f"{ball['stop_s']['mean']:.2f} s", str(ball["falls_of"]["run"])]
+def speed(value):
+    return f"{value:.2f} m/s"
 
 
-def of_dribble(ball):
-    return [f"{ball['dribble_mps']['mean']:.2f} m/s", percent(ball["dribble_kept"]["mean"]), str(ball["falls_of"]["dribble"])]
-
-
-def of_slalom(ball):
-    return [f"{ball['slalom_mps']['mean']:.2f} m/s", percent(ball["slalom_arrived"]["mean"]),
-            percent(ball["slalom_kept"]["mean"]), percent(ball["slalom_near"]["mean"]), str(ball["falls_of"]["slalom"])]
-
-
-def of_receive(ball):
-    return [percent(ball["receive_share"]["mean"]), str(ball["falls_of"]["receive"])]
-
-
-def of_drive(ball):
-    return [f"{ball['drive_m']['mean']:.1f} m", percent(ball["drive_goals"]["mean"]), str(ball["falls_of"]["drive"])]
-
-
-def of_duel(ball):
-    return [percent(ball["duel_share"]["mean"]), percent(ball["duel_open"]["mean"]), str(ball["falls_of"]["duel"])]
+def of_ball(skill, **figures):
+    """Means of a ball report, each written by its function, and the falls of the skill."""
+    return rows_of_one(lambda ball: [*(write(ball[key]["mean"]) for key, write in figures.items()),
+                                     str(ball["falls_of"][skill])])
 
 
 def of_saves(saves):
@@ -151,16 +136,20 @@ def sections(trials):
                                      "--seed 11", of_one_kick("kick_pass", of_pass),
                          ["asked", "mean", "under 2 m", "direction off", "falls"],
                          "Passes of a distance on demand", rows=distances, row_name=lambda row: str(row[0])),
-        "approach": report(ball("approach", 200, " --quick"), rows_of_one(of_approach), ["time", "in place", "falls"],
-                           "Approach from 1.5 m"),
-        "run": report(ball("run", 200), rows_of_one(of_run), ["beyond 3 m, for 3 s", "stop", "falls"], "Run, and stop from it"),
-        "dribble": report(ball("dribble", 100), rows_of_one(of_dribble), ["speed", "kept", "falls"], "Dribble over 10 m"),
-        "slalom": report(ball("slalom", 100), rows_of_one(of_slalom), ["speed", "to the end", "kept", "near", "falls"],
-                         "Slalom"),
-        "receive": report(ball("receive", 100), rows_of_one(of_receive), ["held", "falls"], "Receive"),
-        "drive": report(ball("drive", 200), rows_of_one(of_drive), ["in 15 s", "goals", "falls"], "driveBallToGoal"),
-        "duel": report(ball("duel", 400, " --quick"), rows_of_one(of_duel), ["won", "open", "with a fall"],
-                       "Duel among equals"),
+        "approach": report(ball("approach", 200, " --quick"), of_ball("approach", approach_s=seconds, approach_share=percent),
+                           ["time", "in place", "falls"], "Approach from 1.5 m"),
+        "run": report(ball("run", 200), of_ball("run", run_mps=speed, stop_s=seconds),
+                      ["beyond 3 m, for 3 s", "stop", "falls"], "Run, and stop from it"),
+        "dribble": report(ball("dribble", 100), of_ball("dribble", dribble_mps=speed, dribble_kept=percent),
+                          ["speed", "kept", "falls"], "Dribble over 10 m"),
+        "slalom": report(ball("slalom", 100), of_ball("slalom", slalom_mps=speed, slalom_arrived=percent, slalom_kept=percent,
+                                                      slalom_near=percent),
+                         ["speed", "to the end", "kept", "near", "falls"], "Slalom"),
+        "receive": report(ball("receive", 100), of_ball("receive", receive_share=percent), ["held", "falls"], "Receive"),
+        "drive": report(ball("drive", 200), of_ball("drive", drive_m=lambda way: f"{way:.1f} m", drive_goals=percent),
+                        ["in 15 s", "goals", "falls"], "driveBallToGoal"),
+        "duel": report(ball("duel", 400, " --quick"), of_ball("duel", duel_share=percent, duel_open=percent),
+                       ["won", "open", "with a fall"], "Duel among equals"),
         "saves": report(lambda row: f"save-report --type {row} --trials {trials(250)} --seed 9", rows_of_one(of_saves),
                         ["saved", "rolling", "flying", "own goals", "up after a fall"], "The goalie", rows=[0]),
     }
@@ -171,35 +160,19 @@ def answer_of(program, command, data, file):
     if file.exists():
         return json.loads(file.read_text())
     line = [program, *shlex.split(command), "--json", "--threads", "1", *(["--data", str(data)] if data else [])]
-    done = subprocess.run(line, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{shlex.join(line)}: exit code {done.returncode}\n{done.stderr.strip()[-500:]}")
-    answer = json.loads(done.stdout)
+    try:
+        output = output_of(line)
+    except RuntimeError as trouble:
+        sys.exit(f"{shlex.join(line)}: {trouble}")
+    answer = json.loads(output)
     partial = file.with_suffix(".part")
-    partial.write_text(done.stdout)
+    partial.write_text(output)
     partial.rename(file)
     return answer
 
 
 def file_of(out, command):
     return out / (hashlib.sha256(command.encode()).hexdigest()[:16] + ".json")
-
-
-def digest(folder):
-    """Of everything that decides how a data folder plays."""
-    hash_ = hashlib.sha256()
-    for file in sorted(f for part in ("params", "skills") for f in (folder / part).rglob("*") if f.is_file()):
-        hash_.update(str(file.relative_to(folder)).encode() + b"\0" + file.read_bytes())
-    return hash_.hexdigest()[:16]
-
-
-def claim(out, state):
-    """The folder for this state; refused where it holds another one's answers."""
-    out.mkdir(parents=True, exist_ok=True)
-    file = out / "state.json"
-    if file.exists() and json.loads(file.read_text()) != state:
-        sys.exit(f"{out} holds answers of another state ({file.read_text().strip()}): take another folder")
-    file.write_text(json.dumps(state))
 
 
 def measure(commands, run, jobs, say):
@@ -247,11 +220,11 @@ def self_test():
         program.write_text("#!/bin/sh\necho run >> \"$(dirname \"$0\")/runs\"\n[ \"$1\" = save-report ] || exit 3\n"
                            "echo '{\"saved_share\": 0.5}'\n")
         program.chmod(0o755)
-        claim(out, {"program": "one"})
+        claim(out / "state.json", {"program": "one"}, "another state")
         for _ in range(2):  # the second time from the file
             assert answer_of(str(program), "save-report", None, file_of(out, "save-report")) == {"saved_share": 0.5}
         assert (program.parent / "runs").read_text() == "run\n"
-        for wrong in (lambda: claim(out, {"program": "two"}),
+        for wrong in (lambda: claim(out / "state.json", {"program": "two"}, "another state"),
                       lambda: answer_of(str(program), "walk-report", None, file_of(out, "walk-report"))):
             try:
                 wrong()
@@ -277,7 +250,7 @@ def main():
     parser.add_argument("--only", nargs="+", choices=names, default=names, metavar="SECTION", help=", ".join(names))
     parser.add_argument("--share", type=float, default=1.0, help="of the usual trials")
     parser.add_argument("--jobs", type=int, default=2, help="commands at a time")
-    parser.add_argument("--binary", type=pathlib.Path, default=ROOT / "build/release/nonet", help="the program")
+    parser.add_argument("--nonet", type=pathlib.Path, default=ROOT / "build/release/nonet", help="the program")
     parser.add_argument("--data", type=pathlib.Path, help="folder with params/ and skills/; default: the program's own")
     parser.add_argument("--list", action="store_true", help="only say the commands")
     parser.add_argument("--self-test", action="store_true", help="test this script")
@@ -294,12 +267,14 @@ def main():
         return None
     if options.out is None:
         parser.error("--out is missing")
-    if not options.binary.exists():
-        sys.exit(f"{options.binary}: not there; build it with scripts/build.sh release nonet")
-    program = str(options.binary.resolve())
-    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
-    state = {"program": version, "data": digest(options.data or ROOT), "share": options.share}
-    claim(options.out, state)
+    if not options.nonet.exists():
+        sys.exit(f"{options.nonet}: not there; build it with scripts/build.sh release nonet")
+    program = str(options.nonet.resolve())
+    data = options.data or data_of(program)
+    state = {"program": output_of([program, "--version"]).strip(),
+             "fingerprint": fingerprint([options.nonet, *data_files(data)]), "share": options.share}
+    claim(options.out / "state.json", state,
+          f"{options.out} holds answers of another program, other data or another --share; name another --out")
 
     commands = list(dict.fromkeys(section.command(row) for section in wanted.values() for row in section.rows))
     tables = options.out / "tables.md"

@@ -27,7 +27,6 @@ is done near the ball and of nothing else. --against then names data folders, or
 on a wall (`--skill siege`: four of ours, ball 3 to 10 m before the goal), and what counts is the share with a goal."""
 import argparse
 import concurrent.futures
-import hashlib
 import json
 import math
 import os
@@ -38,7 +37,8 @@ import sys
 import tempfile
 import threading
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import nonet_program
+from nonet_program import ROOT, data_beside, data_files, output_of
 
 
 def read_changes(path, refusal):
@@ -123,19 +123,6 @@ def effects(games, names, opponents):
     return [(n, fit[i], math.sqrt(variance * inverse[i][i])) for i, n in enumerate(names, len(opponents))]
 
 
-def data_beside(program):
-    """Where a program finds params/ and skills/ by itself, as src/agent/data_folder.cpp has it; else here."""
-    for folder in pathlib.Path(program).resolve().parents:
-        for data in (folder, folder / "share/nonet"):
-            if (data / "params").is_dir() and (data / "skills").is_dir():
-                return data
-    return ROOT
-
-
-def data_files(data):
-    return sorted(f for folder in ("params", "skills") for f in (data / folder).rglob("*") if f.is_file())
-
-
 def opponent_files(word):
     """What decides how an opponent plays that is a folder or another program; a word is of our own data."""
     path = pathlib.Path(word)
@@ -146,19 +133,8 @@ def opponent_files(word):
 
 def fingerprint(program, against):
     """Of the program, of what it plays with and of its opponents, so that no screening mixes two."""
-    data = pathlib.Path(os.environ.get("NONET_DATA") or data_beside(program))
-    try:
-        files = [pathlib.Path(program), *data_files(data), *(f for word in against for f in opponent_files(word))]
-        return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
-    except OSError as trouble:
-        sys.exit(f"cannot read {trouble.filename}: name the program with --nonet, its data with NONET_DATA")
-
-
-def output_of(command):
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError((done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1])
-    return done.stdout
+    return nonet_program.fingerprint([pathlib.Path(program), *data_files(nonet_program.data_of(program)),
+                                      *(f for word in against for f in opponent_files(word))])
 
 
 def scenes(pair, made, opponent, changes, settings):
@@ -432,12 +408,9 @@ def screen(settings):
     if settings.scene:
         trials = settings.scene + "s"
         plan |= {trials: getattr(settings, trials), "type": settings.type}
-    settings.out.mkdir(parents=True, exist_ok=True)
-    kept = settings.out / "plan.json"
-    if kept.exists() and json.loads(kept.read_text()) != plan:
-        sys.exit(f"{settings.out} holds another screening (other changes or options, or the program, an opponent, params/ "
-                 "or skills/ changed since); name another --out")
-    kept.write_text(json.dumps(plan, indent=1) + "\n")
+    nonet_program.claim(settings.out / "plan.json", plan,
+                        f"{settings.out} holds another screening (other changes or options, or the program, an opponent, "
+                        "params/ or skills/ changed since); name another --out")
     records = settings.out / "pairs.jsonl"
     done = {record["pair"] for record in read_records(records)}
     if records.exists() and not records.read_text().endswith("\n"):

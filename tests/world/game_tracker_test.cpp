@@ -19,6 +19,26 @@ protocol::Percept gameMessage(double time, PlayMode mode, double gameTime = 0.0)
   return percept;
 }
 
+// A game from the first message on, which tells the side.
+struct Game {
+  explicit Game(TeamSide side, int scoreLeft = 1) {
+    protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
+    first.game.side = side;
+    first.game.scoreLeft = scoreLeft;
+    tracker.update(first, state);
+  }
+  void hear(double time, PlayMode mode, double gameTime = 0.0) {
+    tracker.update(gameMessage(time, mode, gameTime), state);
+  }
+  void reachHalfTime(PlayMode last = PlayMode::PlayOn) {
+    hear(2.0, last, 299.0);
+    hear(3.0, PlayMode::BeforeKickOff, 300.0);
+  }
+
+  GameTracker tracker{protocol::TeamName("Us")};
+  GameState state;
+};
+
 // The referee gives the ball free after 15 s (server facts 4.1); before that somebody has touched it.
 TEST(GameTracker, KnowsWhetherTheSetPieceWasTaken) {
   for (const double lasted : {3.0, 14.0, 15.0, 15.04}) {
@@ -58,12 +78,9 @@ TEST(GameTracker, SeesPlayModesFromTheOwnSide) {
 }
 
 TEST(GameTracker, ScoresThatChangePlacesTellTheChangeOfSides) {
-  GameTracker tracker(protocol::TeamName("Us"));
-  GameState state;
-  protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-  first.game.side = TeamSide::Left;
-  tracker.update(first, state);
-  tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
+  Game game(TeamSide::Left);
+  auto& [tracker, state] = game;
+  game.hear(2.0, PlayMode::PlayOn, 299.0);
   protocol::Percept second = gameMessage(3.0, PlayMode::BeforeKickOff, 300.0);
   second.game.scoreLeft = 0;
   second.game.scoreRight = 1;
@@ -75,15 +92,11 @@ TEST(GameTracker, ScoresThatChangePlacesTellTheChangeOfSides) {
 }
 
 TEST(GameTracker, StaysWhenTheServerDoesNotChangeSides) {
-  GameTracker tracker(protocol::TeamName("Us"));
-  GameState state;
-  protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-  first.game.side = TeamSide::Right;
-  tracker.update(first, state);
+  Game game(TeamSide::Right);
+  auto& [tracker, state] = game;
   tracker.noticePlace(-3.0, 1.5, state);  // only after half time
   EXPECT_FALSE(state.sidesSwapped);
-  tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
-  tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
+  game.reachHalfTime();
   EXPECT_FALSE(tracker.sideKnown());
   tracker.noticePlace(6.0, 3.06, state);  // own half of the right team
   EXPECT_TRUE(tracker.sideKnown());
@@ -97,14 +110,9 @@ TEST(GameTracker, TheFirstMessageOfHalfTimeProvesNothing) {
   for (const bool changed : {false, true}) {
     for (const double before : {-8.0, 8.0}) {
       for (const PlayMode last : {PlayMode::PlayOn, PlayMode::GoalRight}) {
-        GameTracker tracker(protocol::TeamName("Us"));
-        GameState state;
-        protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-        first.game.side = TeamSide::Left;
-        first.game.scoreLeft = 0;  // the score does not help
-        tracker.update(first, state);
-        tracker.update(gameMessage(2.0, last, 299.0), state);
-        tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
+        Game game(TeamSide::Left, 0);  // the score does not help
+        auto& [tracker, state] = game;
+        game.reachHalfTime(last);
         tracker.noticePlace(before, 3.0, state);
         EXPECT_FALSE(tracker.sideKnown());
         EXPECT_FALSE(state.sidesSwapped);
@@ -117,14 +125,10 @@ TEST(GameTracker, TheFirstMessageOfHalfTimeProvesNothing) {
 }
 
 TEST(GameTracker, WhoCouldNotLookAroundFindsOutAtTheKickOff) {
-  GameTracker tracker(protocol::TeamName("Us"));
-  GameState state;
-  protocol::Percept first = gameMessage(1.0, PlayMode::BeforeKickOff);
-  first.game.side = TeamSide::Left;
-  tracker.update(first, state);
-  tracker.update(gameMessage(2.0, PlayMode::PlayOn, 299.0), state);
-  tracker.update(gameMessage(3.0, PlayMode::BeforeKickOff, 300.0), state);
-  tracker.update(gameMessage(8.0, PlayMode::KickOffLeft, 300.0), state);
+  Game game(TeamSide::Left);
+  auto& [tracker, state] = game;
+  game.reachHalfTime();
+  game.hear(8.0, PlayMode::KickOffLeft, 300.0);
   EXPECT_EQ(state.phase, Phase::OwnKickOff);
   tracker.noticePlace(1.0, 8.0, state);  // the taker of the kick-off may stand there
   EXPECT_FALSE(tracker.sideKnown());
