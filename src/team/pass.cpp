@@ -53,12 +53,13 @@ struct Demand {
   double better = 0.0;  // goals more than running on
 };
 
-// Ahead, where the goal is far, a short pass for no gain will do; back it gives ground away.
-Demand demandOn(const Situation& s, const Vector2& p_FTarget) {
+// Ahead, where the goal is far, a short pass for no gain will do before an opponent comes; back it gives
+// ground away. `left`: s until an opponent plays the ball where it lies.
+Demand demandOn(const Situation& s, const Vector2& p_FTarget, double left) {
   const PassParameters& p = s.parameters.pass;
   const Vector2 goal = s.world.field.theirGoal();
   const double toGoal = (goal - s.ball()).norm();
-  const bool onward = toGoal > p.far && (goal - p_FTarget).norm() < toGoal;
+  const bool onward = left < p.farPressed && toGoal > p.far && (goal - p_FTarget).norm() < toGoal;
   return onward ? Demand{p.farLeast, p.farBetter} : Demand{p.least, p.better};
 }
 
@@ -110,7 +111,7 @@ std::optional<Pass> bestPass(const Situation& s, Candidates* record) {
       const Vector2 target = mate.X_FP.translation + run * p.runStep * onward;
       const Vector2 way = target - s.ball();
       const double distance = way.norm();
-      const Demand demand = demandOn(s, target);
+      const Demand demand = demandOn(s, target, left);
       if (distance < demand.least || distance > p.most || !s.world.field.holds(target, p.margin)) continue;
       std::optional<Resistance> resistance;
       for (const motion::KickOption& kick : s.motion.kicks) {

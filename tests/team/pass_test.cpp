@@ -123,6 +123,9 @@ TEST(Pass, ShortOnesOnlyFarFromTheGoal) {
   scene.parameters.pass.far = 15.0;
   EXPECT_FALSE(scene.best());
   scene.parameters.pass.far = 10.0;
+  scene.parameters.pass.farPressed = 0.3;
+  EXPECT_FALSE(scene.best()) << "whoever has time runs on";
+  scene.parameters.pass.farPressed = 4.0;
   // In the own half, where a free mate behind looks better than a ball that opponents bar.
   scene.putBall({-6.0, 0.0});
   scene.stand(Pose2(-5.95, -0.2, 1.8));

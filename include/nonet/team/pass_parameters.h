@@ -21,6 +21,7 @@ struct PassParameters {
   double far = 10.0;
   double farLeast = 2.2;
   double farBetter = 0.0;
+  double farPressed = 4.0;
   double keep = 0.03;
   double hold = 0.85;
   double press = 1.0;
@@ -97,6 +98,12 @@ struct PassParameters {
            search(0, 0.05),
            "Far from the goal a pass is worth at least so much more than running on"},
           self.farBetter);
+    visit({"farPressed",
+           Unit::Second,
+           {0, 60},
+           search(1, 10),
+           "These two count only while an opponent needs less than this to the ball"},
+          self.farPressed);
     visit({"keep",
            Unit::None,
            {0, 1},

@@ -30,20 +30,20 @@ constexpr double kApproachLongest = 10.0;  // s
 constexpr double kKickOver = 8.0;          // m, to the target
 constexpr double kPushEvery = 1.0;         // s, on average
 
-// What the body said of itself last.
+// What the body said of itself last, and where it was last told to kick: a shot goes to the goal.
 struct KickWatch {
   bool ready = false;      // in place, or the kick has begun
   double direction = 0.0;  // of that kick, from straight ahead
+  Vector2 p_FTarget = Vector2::Zero();
 };
 
-KickWatch watchOf(const motion::MotionState& motion) {
-  KickWatch watch;
+void update(KickWatch& watch, const motion::MotionState& motion) {
   watch.ready = !motion.kick.name.empty() && (motion.kick.inPlace || motion.busy);
+  watch.direction = 0.0;
   for (const motion::KickOption& option : motion.kicks) {
     if (option.name == motion.kick.name && option.foot == motion.kick.foot)
       watch.direction = option.head.direction;
   }
-  return watch;
 }
 
 // -- dribbling
@@ -107,16 +107,19 @@ Approach approachOnce(const agent::AgentSettings& agent, const sim::Settings& se
   const Vector2 target = situation.ball + kKickOver * unitVector(random.uniform(-0.5, 0.5));
   const Mind mind = drilled(agent.parameters.team, target, team::KickUse::Clear);
   auto watch = std::make_shared<KickWatch>();
+  watch->p_FTarget = target;
   situation.players = {fieldPlayer(
       agent, start, [mind, watch](const world::WorldState& world, const motion::MotionState& motion) {
-        *watch = watchOf(motion);
-        return mind(world, motion);
+        update(*watch, motion);
+        team::Action action = mind(world, motion);
+        if (const auto* kick = std::get_if<motion::KickTo>(&action.motion))
+          watch->p_FTarget = world.self.X_FR * kick->target;
+        return action;
       })};
   RecordedTrial trial(settings, situation, random.next());
   const auto inPlace = [&] {
     const BallSample& now = trial.track().back();
-    const Vector2 way = target - now.ball;
-    const double wanted = directionOf(way) - watch->direction;
+    const double wanted = directionOf(watch->p_FTarget - now.ball) - watch->direction;
     return watch->ready && std::abs(wrapAngle(wanted - now.X_WR.rotation)) < kFacing;
   };
   trial.run(kApproachLongest, [&] {
@@ -221,12 +224,15 @@ Reception receiveOnce(const agent::AgentSettings& agent, const sim::Settings& se
   Random random(seed);
   const BallScene scene = passScene(random);
   GameSituation situation = scene.situation;
-  situation.players = {
-      fieldPlayer(agent, scene.start, drilled(agent.parameters.team, scene.target, team::KickUse::Never))};
+  // Who is to run on with the ball would push it farther ahead than counts as held.
+  const ReceiveRule rule;
+  const team::BallIntent intent{scene.target, team::KickUse::Never, rule.near};
+  situation.players = {fieldPlayer(agent, scene.start,
+                                   drilled(agent.parameters.team, [intent](const auto&) { return intent; }))};
   RecordedTrial trial(settings, situation, random.next());
   trial.run(kPassTime);
   Reception reception;
-  static_cast<ReceiveResult&>(reception) = measureReceive(trial.track(), ReceiveRule{});
+  static_cast<ReceiveResult&>(reception) = measureReceive(trial.track(), rule);
   reception.speed = scene.speed;
   reception.aside = scene.aside;
   trial.charge(reception);
