@@ -22,7 +22,7 @@ for check in "${checks[@]}"; do
       python3 scripts/check_citations.py
       ;;
     scripts)
-      for script in screen measure nonet_env env_example; do
+      for script in screen measure duels nonet_env env_example; do
         PYTHONDONTWRITEBYTECODE=1 python3 "scripts/$script.py" --self-test
       done
       ;;

@@ -79,7 +79,7 @@ struct KickHead {
   double apexSpread = 0.0;   // m, standard deviation of heights
   double clears = 0.0;       // m: a chip, to be so high a metre from where it lay; 0: none
   double lands = 0.0;        // m: and to come down no farther off
-  double low = 0.0;          // m: a kick to be no higher there, below a bar; 0: as high as it likes
+  double low = 0.0;          // m: a kick to be no higher, below a bar; 0: as high as it likes
   double contact = 0.0;      // s from the begin of the skill to the foot's contact with the ball
   double room = 0.0;         // m that no opponent may be nearer to the ball
   std::uint32_t types = 31;  // bit per robot type

@@ -21,7 +21,7 @@ inline double worthOfWay(const Kick& kick, const motion::KickHead& head, double 
     return kPerHeight * std::min(kick.height, head.clears + kHigher) - tooFar;
   }
   if (head.scales) return kExact - std::abs(kick.forward - distance);
-  const double tooHigh = head.low > 0.0 ? std::max(0.0, kick.height - head.low) : 0.0;
+  const double tooHigh = head.low > 0.0 ? std::max(0.0, kick.highest - head.low) : 0.0;
   return kick.forward - kPerHeight * tooHigh;
 }
 

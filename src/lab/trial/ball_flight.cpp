@@ -1,5 +1,7 @@
 #include "lab/trial/ball_flight.h"
 
+#include <algorithm>
+
 namespace nonet::lab {
 
 namespace {
@@ -15,12 +17,14 @@ void BallFlight::note(const world::BallMotion& ball) {
   const double height = ball.p_FB.z();
   const double way = (ball.p_FB.head<2>() - p_FBegin_).norm();
   if (height_ == 0.0 && way > kAMetre) height_ = height;
+  if (landing_ == 0.0) highest_ = std::max(highest_, height);
   flew_ = flew_ || height > kFlies;
   if (flew_ && landing_ == 0.0 && height < kDown) landing_ = way;
 }
 
 void BallFlight::tell(Kick& kick) const {
   kick.height = height_;
+  kick.highest = highest_;
   kick.landing = landing_;
   if (!flew_ || landing_ > 0.0) return;
   const Vector2 end = ball_.p_FB.head<2>() + world::landingTime(ball_) * ball_.v_FB.head<2>();

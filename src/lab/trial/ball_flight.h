@@ -1,4 +1,5 @@
-// How a kicked ball flies: its height a metre from where it lay, and where it comes down first.
+// How a kicked ball flies: its height a metre from where it lay, where it is highest, and where it comes down
+// first.
 #pragma once
 
 #include "nonet/lab/trial/kick_trial.h"
@@ -20,6 +21,7 @@ class BallFlight {
   world::BallMotion ball_{};  // as noted last
   bool flew_ = false;
   double height_ = 0.0;   // m
+  double highest_ = 0.0;  // m
   double landing_ = 0.0;  // m
 };
 

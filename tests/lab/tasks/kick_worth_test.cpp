@@ -9,6 +9,7 @@ Kick flown(double forward, double height, double landing) {
   Kick kick;
   kick.forward = forward;
   kick.height = height;
+  kick.highest = height;
   kick.landing = landing;
   return kick;
 }

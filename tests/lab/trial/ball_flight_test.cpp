@@ -35,6 +35,7 @@ TEST(BallFlight, TellsHeightAMetreOnAndWhereItLands) {
     const double expected = thrown(ahead, up, time).p_FB.z();
     EXPECT_NEAR(kick.height, expected, kCycle * (up + kG * lasts / 2.0)) << ahead;
     EXPECT_NEAR(kick.landing, ahead * lasts, 1.5 * kCycle * ahead) << ahead;
+    EXPECT_NEAR(kick.highest, world::kBallRestHeight + up * up / (2.0 * kG), 0.01) << ahead;
     // In the middle of its flight it is known where it will land.
     EXPECT_NEAR(flightUntil(ahead, up, 0.6 * lasts).landing, ahead * lasts, 1.5 * kCycle * ahead) << ahead;
   }

@@ -37,6 +37,7 @@ struct Kick {
   double forward = 0.0;            // m that the ball went towards the target, until it rolled out
   double aside = 0.0;              // m to the left of it
   double height = 0.0;             // m, of the ball's centre a metre from where it lay
+  double highest = 0.0;            // m, of its centre, until it first came down
   double landing = 0.0;            // m from where it lay to where it first came down; 0: it did not fly
   double time = 0.0;               // s until contact
   double ballSpeed = 0.0;          // m/s, the fastest
