@@ -31,7 +31,8 @@ bool stepEnds(const WalkEngine& walk, Side foot, const KickParameters& p) {
   if (gait.standing || gait.stance != foot || gait.phase < 1.0 - 1e-6) return false;
   if (leansTooFar(walk.measurement().tilt)) return false;
   if (gait.step.translation.x() < p.leastPace * gait.stepDuration) return false;
-  return gait.step.translation.norm() < p.strideSpeed * gait.stepDuration &&
+  return std::abs(gait.step.translation.y()) < p.asidePace * gait.stepDuration &&
+         gait.step.translation.norm() < p.strideSpeed * gait.stepDuration &&
          std::abs(gait.step.rotation) < p.strideTurn * gait.stepDuration;
 }
 
@@ -171,7 +172,8 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
   comesToStand_ = step.inPlace;
   step.aim = {then.ball, way.turn, walk.speed().translation, (request.target - request.ball).norm()};
-  step.begin = step.inPlace && (head.fromWalk ? stepEnds(walk, chosen_->foot, p) : quietly);
+  const bool comes = request.ballVelocity.x() < -p.comes;
+  step.begin = step.inPlace && (head.fromWalk ? !comes && stepEnds(walk, chosen_->foot, p) : quietly);
   step.stand = step.inPlace && !head.fromWalk;
   if (head.isExact()) {
     const bool lies = within(kAbout, way) && (steady_ == 0.0 || steadyFor_ == chosen_);

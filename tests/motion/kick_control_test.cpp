@@ -160,13 +160,14 @@ constexpr const char* kOutOfTheWalk =
     "skill kick_k { kick { ball (0.2m, 5cm) within (9cm, 9cm) distance 3m..14m contact 0.3s from walk } }";
 
 // On the spot, up to the end of a step that stands on this foot.
-void stepUntilItStandsOn(Side foot, WalkEngine& walk, double pitch = 0.0, double speed = 0.0) {
+void stepUntilItStandsOn(Side foot, WalkEngine& walk, double pitch = 0.0, double speed = 0.0,
+                         double aside = 0.0) {
   world::BodyState body;
   body.cycleTime = kCycleTime;
   body.pitch = pitch;
   WalkCommand command;
   command.walk = true;
-  command.speed = Pose2(speed, 0.0, 0.0);
+  command.speed = Pose2(speed, aside, 0.0);
   JointTargets targets;
   for (int i = 0;
        i < 200 && (i < 20 || walk.standing() || walk.gait().stance != foot || walk.gait().phase < 1.0 - 1e-6);
@@ -187,6 +188,30 @@ TEST(KickChoice, AKickOutOfTheWalkBeginsWhereAStepEndsAndNotFromAStand) {
   const KickStep now = control.update(kick, kicks.walk, 0.0);
   ASSERT_EQ(now.option->foot, Side::Left);
   EXPECT_TRUE(now.begin);
+}
+
+// Out of steps aside the foot passes the ball; it may come as slowly as it can be hit, or roll away.
+TEST(KickChoice, AKickOutOfTheWalkBeginsNeitherOutOfStepsAsideNorAtABallThatComes) {
+  const auto begins = [](double aside, double rolling, const KickParameters& parameters) {
+    Kicks kicks(kOutOfTheWalk);
+    stepUntilItStandsOn(Side::Left, kicks.walk, 0.0, 0.0, aside);
+    KickControl control(kicks.catalogue, parameters);
+    KickTo kick = straightKick();
+    kick.ballVelocity = {rolling, 0.0};
+    return control.update(kick, kicks.walk, 0.0).begin;
+  };
+  const KickParameters p;
+  KickParameters any;
+  any.asidePace = any.comes = any.strideSpeed = 3.0;
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_FALSE(begins(side * 3.0 * p.asidePace, 0.0, p));
+    EXPECT_TRUE(begins(side * 3.0 * p.asidePace, 0.0, any));
+  }
+  EXPECT_TRUE(begins(0.0, 0.0, p));
+  EXPECT_FALSE(begins(0.0, -1.1 * p.comes, p));
+  EXPECT_TRUE(begins(0.0, -1.1 * p.comes, any));
+  EXPECT_TRUE(begins(0.0, -0.9 * p.comes, p));
+  EXPECT_TRUE(begins(0.0, 1.1 * p.comes, p));
 }
 
 // It begins once the ball has lain about in its place, within twice the tolerance, for so long.

@@ -25,6 +25,8 @@ struct KickParameters {
   double strideSpeed = 0.45;
   double strideTurn = 0.8;
   double leastPace = -0.02;
+  double asidePace = 0.12;
+  double comes = 0.15;
   double quietRate = 0.35;
   double quietTime = 0.1;
 
@@ -122,6 +124,19 @@ struct KickParameters {
            "A kick out of the walk begins in steps that lead ahead at least this fast: a swing out of steps "
            "back is weak"},
           self.leastPace);
+    visit({"asidePace",
+           Unit::MetrePerSecond,
+           {0, 3},
+           fixed,
+           "A kick out of the walk begins in steps that lead aside slower than this: out of others the foot "
+           "passes the ball"},
+          self.asidePace);
+    visit({"comes",
+           Unit::MetrePerSecond,
+           {0, 3},
+           fixed,
+           "A kick out of the walk begins while the ball comes towards the robot slower than this"},
+          self.comes);
     visit({"quietRate",
            Unit::RadianPerSecond,
            {0, 10},

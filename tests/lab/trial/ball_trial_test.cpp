@@ -1,6 +1,7 @@
 // The ball skills as scenarios: seeded trials of whole agents, of which so many must succeed.
 #include "nonet/lab/trial/ball_trial.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
+#include "nonet/world/ball_law.h"
 
 #include "lab/trial/ball_drill.h"
 #include "lab/trial_setup.h"
@@ -117,6 +119,34 @@ TEST(BallTrial, ComesAroundTheBallWithoutTouchingIt) {
     }
     EXPECT_LE(touched, 1) << "of 6, type " << type;
   }
+}
+
+// As after a short pass: the ball rolls out at the feet of a robot that waits for it, and is not to be
+// missed.
+TEST(BallTrial, KicksABallThatHasRolledToItsFeet) {
+  const agent::AgentSettings agent = agentOfType(2);
+  int weak = 0;
+  for (int i = 0; i < 16; ++i) {
+    const double from = (i % 2 == 0 ? 1.0 : -1.0) * toRadians(50.0 + 2.0 * i);
+    const Vector2 rest(-1.3, -2.6);
+    GameSituation situation;
+    situation.ball = rest + 2.6 * unitVector(from);
+    situation.ballVelocity = -2.75 * world::kRollDecay * unitVector(from);
+    const Mind mind = drilled(agent.parameters.team, rest + Vector2(12.0, 0.0), team::KickUse::Clear);
+    situation.players = {fieldPlayer(agent, Pose2(rest.x() - 0.17, rest.y() + 0.01 * i, 0.0), mind)};
+    RecordedTrial trial(quick(), situation, static_cast<std::uint64_t>(i + 1));
+    double slowest = 9.0;
+    bool kicked = false;
+    trial.run(8.0, [&] {
+      const double speed = trial.game().ballVelocity().norm();
+      slowest = std::min(slowest, speed);
+      kicked = speed > slowest + 0.3;
+      return !kicked;
+    });
+    trial.run(0.1);
+    weak += trial.game().ballVelocity().norm() > 4.0 ? 0 : 1;
+  }
+  EXPECT_LE(weak, 3) << "of 16";
 }
 
 // The same passes with and without the behaviour: going to the line of the ball holds more of them.
