@@ -59,6 +59,14 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
   addKickOptions(*command, settings);
   command->add_option("--pushed", settings.pushed, "Speed at which it rolls to the target at the begin, m/s")
       ->check(CLI::Range(0.0, 3.0));
+  command
+      ->add_option(
+          "--passed", settings.passed,
+          "Speed at which it comes at the begin, from either side or from the target, as a pass that "
+          "rolls out before the waiting robot, m/s; --start says nothing then")
+      ->check(CLI::Range(0.0, 4.0))
+      ->excludes("--pushed")
+      ->excludes("--rolling");
   command->add_flag("--stop", settings.stops,
                     "With --kick any: it should come to rest there, motion chooses as for a pass");
   command->add_option("--seed", arguments->choice.seed, "Seed of all kicks");
@@ -70,6 +78,7 @@ void addKickReportCommand(CLI::App& app, int& exitCode) {
       "  nonet kick-report --kick any --rolling 0.3 --start 1.5 --svg fan_\n"
       "  nonet kick-report --kick any --distance 4 --stop  # a pass of 4 m\n"
       "  nonet kick-report --kick any --pushed 1 --start 0.5  # after the dribbler's own push\n"
+      "  nonet kick-report --kick any --passed 2.5         # a pass that has come\n"
       "  nonet kick-report --kick kick_power --tcp         # on a server that runs, nobody else on it");
   command->callback([arguments, &exitCode] { exitCode = run(*arguments); });
 }

@@ -25,7 +25,7 @@ struct KickParameters {
   double strideSpeed = 0.45;
   double strideTurn = 0.8;
   double leastPace = -0.02;
-  double asidePace = 0.12;
+  double asidePace = 0.06;
   double comes = 0.15;
   double quietRate = 0.35;
   double quietTime = 0.1;

@@ -180,7 +180,8 @@ BallSkillReport measureScrum(ScrumBall ball, const BallReportSettings& s, const 
 }
 
 BallSkillReport measureReceiving(const BallReportSettings& s, const sim::Settings& server) {
-  const auto trials = repeated(s, "receive", [&](auto seed) { return receiveOnce(s.agent, server, seed); });
+  const auto trials =
+      repeated(s, "receive", [&](auto seed) { return receiveOnce(s.agent, server, seed, true); });
   return reportOf("receive", trials,
                   {figure("receive_share", "share held", trials, [](const auto& t) { return t.held; }),
                    figure("receive_rebound_m", "m from the robot after the touch", trials,

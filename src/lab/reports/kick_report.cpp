@@ -115,6 +115,7 @@ std::vector<KickMeasures> measureKicks(const KickReportSettings& settings) {
       scene.start = settings.start;
       scene.rolling = settings.rolling;
       scene.pushed = settings.pushed;
+      scene.passed = settings.passed;
       scene.distance = settings.distance;
       scene.stops = settings.stops || head.scales;
       scene.bearing = kickBearing(i);

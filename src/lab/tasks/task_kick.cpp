@@ -3,8 +3,8 @@
 // towards the target less what goes aside and 1.2 m for every second; -1 for a fall, a self-collision, a miss
 // or a ball that leaves by more than ten degrees. Of a kick that goes as far as is asked for, the error
 // counts instead of the distance, of a chip the height. played_NAME: the same of kick_NAME with the ball as
-// play leaves it, often rolling away. aimed_NAME: the same as that, for shots: what goes aside counts four
-// times, as from six metres on it decides whether there is a goal.
+// play leaves it, often rolling away, or to the robot's feet. aimed_NAME: the same as that, for shots: what
+// goes aside counts four times, as from six metres on it decides whether there is a goal.
 #include <cmath>
 #include <string>
 
@@ -30,6 +30,8 @@ constexpr double kRolling = 0.3;    // m/s
 constexpr double kFaster = 0.5;     // m/s, in play
 constexpr double kLeastPush = 0.2;  // m/s, of a ball that rolls straight away
 constexpr double kMostPush = 0.6;
+constexpr double kSlowestPass = 1.5;  // m/s, of a ball that rolls to the robot's feet
+constexpr double kFastestPass = 3.0;
 constexpr double kNearest = 0.3;   // m from the ball, where the approach begins
 constexpr double kFarthest = 1.5;  // m
 
@@ -97,14 +99,14 @@ class PlayedKickTask : public KickTask {
 
   std::string_view name() const override { return name_; }
   std::string_view description() const override {
-    return "the same with the ball as play leaves it: resting, rolling anywhere, or pushed ahead";
+    return "the same with the ball as play leaves it: resting, rolling anywhere, pushed ahead, or passed";
   }
 
  private:
   void roll(int i, KickScene& scene, Random& random) const override {
     if (i == 1) scene.rolling = kFaster;
     if (i == 2) scene.pushed = random.uniform(kLeastPush, kMostPush);
-    if (i == 3) scene.rolling = kRolling;
+    if (i == 3) scene.passed = random.uniform(kSlowestPass, kFastestPass);
   }
 
   std::string name_;

@@ -32,7 +32,7 @@ class ReceiveTask final : public Task {
     Random random = Random(seed).fork(kReceiveDraws);
     double fitness = 0.0, held = 0.0, rebound = 0.0, falls = 0.0;
     for (int i = 0; i < kPasses; ++i) {
-      const Reception pass = receiveOnce(agent, server, random.next());
+      const Reception pass = receiveOnce(agent, server, random.next(), false);
       fitness += (pass.held ? 1.0 : -std::min(pass.rebound, kMostRebound)) - (pass.fell ? kReceiveFall : 0.0);
       held += pass.held ? 1.0 : 0.0;
       rebound += pass.rebound;

@@ -220,13 +220,14 @@ Attack attackOnce(const agent::AgentSettings& agent, const Defence& defence, con
   return attack;
 }
 
-Reception receiveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed) {
+Reception receiveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed,
+                      bool keeps) {
   Random random(seed);
   const BallScene scene = passScene(random);
   GameSituation situation = scene.situation;
-  // Who is to run on with the ball would push it farther ahead than counts as held.
   const ReceiveRule rule;
-  const team::BallIntent intent{scene.target, team::KickUse::Never, rule.near};
+  team::BallIntent intent{scene.target, team::KickUse::Never};
+  if (keeps) intent.keep = rule.near;
   situation.players = {fieldPlayer(agent, scene.start,
                                    drilled(agent.parameters.team, [intent](const auto&) { return intent; }))};
   RecordedTrial trial(settings, situation, random.next());

@@ -18,8 +18,7 @@ constexpr double kHit = 0.7;  // m/s that a kick adds at least to the ball's spe
 /// Plays the ball to a place with the kick of that name; empty: motion chooses. `stops`: and not beyond it.
 class Kicker {
  public:
-  Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const std::string& kick,
-         bool stops);
+  Kicker(const team::TeamParameters& parameters, const Vector2& p_FTarget, const KickScene& scene);
 
   team::Action operator()(const world::WorldState& world, const motion::MotionState& motion);
 
@@ -33,6 +32,7 @@ class Kicker {
   Vector2 p_FTarget_;
   InlineString<32> kick_;
   bool stops_;
+  bool awaits_;
 };
 
 /// A robot, a ball and where it should go. The kicker belongs to the situation's only player.

@@ -1,7 +1,6 @@
 // The ball skills as scenarios: seeded trials of whole agents, of which so many must succeed.
 #include "nonet/lab/trial/ball_trial.h"
 
-#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -13,7 +12,6 @@
 #include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
-#include "nonet/world/ball_law.h"
 
 #include "lab/trial/ball_drill.h"
 #include "lab/trial_setup.h"
@@ -121,34 +119,6 @@ TEST(BallTrial, ComesAroundTheBallWithoutTouchingIt) {
   }
 }
 
-// As after a short pass: the ball rolls out at the feet of a robot that waits for it, and is not to be
-// missed.
-TEST(BallTrial, KicksABallThatHasRolledToItsFeet) {
-  const agent::AgentSettings agent = agentOfType(2);
-  int weak = 0;
-  for (int i = 0; i < 16; ++i) {
-    const double from = (i % 2 == 0 ? 1.0 : -1.0) * toRadians(50.0 + 2.0 * i);
-    const Vector2 rest(-1.3, -2.6);
-    GameSituation situation;
-    situation.ball = rest + 2.6 * unitVector(from);
-    situation.ballVelocity = -2.75 * world::kRollDecay * unitVector(from);
-    const Mind mind = drilled(agent.parameters.team, rest + Vector2(12.0, 0.0), team::KickUse::Clear);
-    situation.players = {fieldPlayer(agent, Pose2(rest.x() - 0.17, rest.y() + 0.01 * i, 0.0), mind)};
-    RecordedTrial trial(quick(), situation, static_cast<std::uint64_t>(i + 1));
-    double slowest = 9.0;
-    bool kicked = false;
-    trial.run(8.0, [&] {
-      const double speed = trial.game().ballVelocity().norm();
-      slowest = std::min(slowest, speed);
-      kicked = speed > slowest + 0.3;
-      return !kicked;
-    });
-    trial.run(0.1);
-    weak += trial.game().ballVelocity().norm() > 4.0 ? 0 : 1;
-  }
-  EXPECT_LE(weak, 3) << "of 16";
-}
-
 // The same passes with and without the behaviour: going to the line of the ball holds more of them.
 TEST(BallTrial, ReceivingHoldsMorePasses) {
   agent::AgentSettings with = agentOfType(0);
@@ -158,11 +128,18 @@ TEST(BallTrial, ReceivingHoldsMorePasses) {
   int held = 0;
   int before = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    held += receiveOnce(with, quick(), seed).held ? 1 : 0;
-    before += receiveOnce(without, quick(), seed).held ? 1 : 0;
+    held += receiveOnce(with, quick(), seed, false).held ? 1 : 0;
+    before += receiveOnce(without, quick(), seed, false).held ? 1 : 0;
   }
-  EXPECT_GE(held, 10);
+  EXPECT_GE(held, 6);
   EXPECT_GT(held, before);
+}
+
+TEST(BallTrial, KeepsAPassThatItIsToKeep) {
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed)
+    held += receiveOnce(agentOfType(1), quick(), seed, true).held ? 1 : 0;
+  EXPECT_GE(held, 11);
 }
 
 TEST(BallTrial, RunsAndStops) {
@@ -238,8 +215,8 @@ TEST(BallTrial, WhoSlowsDownBeforeAnOpponentIsNotTakenOff) {
 }
 
 TEST(BallTrial, SameSeedSameTrial) {
-  const Reception first = receiveOnce(agentOfType(1), quick(), 5);
-  const Reception second = receiveOnce(agentOfType(1), quick(), 5);
+  const Reception first = receiveOnce(agentOfType(1), quick(), 5, true);
+  const Reception second = receiveOnce(agentOfType(1), quick(), 5, true);
   EXPECT_EQ(first.closest, second.closest);
   EXPECT_EQ(first.time, second.time);
 }

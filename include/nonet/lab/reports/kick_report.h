@@ -19,6 +19,7 @@ struct KickReportSettings {
   double start = 0.5;        // m from the ball
   double rolling = 0.0;      // m/s, the fastest that the ball rolls at the begin
   double pushed = 0.0;       // m/s, how fast it rolls towards the target at the begin
+  double passed = 0.0;       // m/s, how fast it comes as a pass at the begin, to roll out before the robot
   double distance = 10.0;    // m, how far the ball is wanted to go
   bool stops = false;        // and no farther: motion chooses as for a pass
   std::uint64_t seed = 1;

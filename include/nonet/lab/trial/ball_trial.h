@@ -74,8 +74,10 @@ struct Reception : TrialCost, ReceiveResult {
   double speed = 0.0;  // m/s of the pass a metre before the robot
   double aside = 0.0;  // m, by how much it would pass the robot
 };
-/// A pass from 3 m, 1 to 3 m/s fast a metre before the robot, up to 0.4 m beside it.
-Reception receiveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed);
+/// A pass from 3 m, 1 to 3 m/s fast a metre before the robot, up to 0.4 m beside it. Told to keep the ball at
+/// its feet, or else to run on with it to the goal, by which it is often farther ahead than counts as held.
+Reception receiveOnce(const agent::AgentSettings& agent, const sim::Settings& settings, std::uint64_t seed,
+                      bool keeps);
 
 struct Run : TrialCost {
   double speed = 0.0;     // m/s, mean of 3 s beyond 3 m of way
