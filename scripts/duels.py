@@ -10,7 +10,6 @@ puts robots and ball into their places. A and B change sides from duel to duel. 
 towards either goal or left the field, at the latest after 20 s; what is not decided counts half. One that was stopped goes on
 with the same command; a folder belongs to two programs, a type and a seed, and another one is refused."""
 import argparse
-import concurrent.futures
 import json
 import math
 import os
@@ -24,7 +23,7 @@ import sys
 import tempfile
 import time
 
-from nonet_program import ROOT, claim, data_beside, data_files, fingerprint
+from nonet_program import ROOT, claim, data_beside, data_files, demand, fingerprint, run_each
 
 UNUM = 7  # any but the goalie's
 APART = 0.5  # m from the ball
@@ -281,8 +280,7 @@ def main():
     if options.trials < 1 or options.jobs < 1:
         parser.error("--trials and --jobs must be 1 or more")
     for program in (options.a, options.b, options.nonet):
-        if not program.exists():
-            sys.exit(f"{program}: not there; build it with scripts/build.sh release nonet")
+        demand(program)
     os.environ.pop("NONET_DATA", None)  # every program plays with the data beside it
     options.a, options.b, options.nonet = (each.resolve() for each in (options.a, options.b, options.nonet))
     plan = {"a": state_of(options.a), "b": state_of(options.b), "type": options.type, "seed": options.seed}
@@ -291,20 +289,17 @@ def main():
     duels = duels_of(kept)
     kept.write_text("".join(json.dumps(duel) + "\n" for duel in duels.values()))
     missing = [trial for trial in range(options.trials) if trial not in duels]
-    with kept.open("a") as file, concurrent.futures.ThreadPoolExecutor(options.jobs) as workers:
-        waiting = [workers.submit(play, options, trial) for trial in missing]
+    with kept.open("a") as file:
+        def keep(_, duel):
+            duels[duel["trial"]] = duel
+            file.write(json.dumps(duel) + "\n")
+            file.flush()
+            print(f"{len(duels)} of {options.trials}", file=sys.stderr)
+
         try:
-            for future in concurrent.futures.as_completed(waiting):
-                duel = future.result()
-                duels[duel["trial"]] = duel
-                file.write(json.dumps(duel) + "\n")
-                file.flush()
-                print(f"{len(duels)} of {options.trials}", file=sys.stderr)
-        except BaseException as trouble:
-            workers.shutdown(wait=False, cancel_futures=True)
-            if isinstance(trouble, RuntimeError):
-                sys.exit(str(trouble))
-            raise
+            run_each(missing, lambda trial: play(options, trial), options.jobs, keep)
+        except RuntimeError as trouble:
+            sys.exit(str(trouble))
     result = summary([duels[trial] for trial in range(options.trials)])
     print(json.dumps(result) if options.json else text_of(result))
     return None

@@ -11,7 +11,6 @@ A section is a table with the command that gave it. Each command's answer is kep
 goes on with the same command, and the folder's tables.md holds all tables that are complete. A folder belongs to one
 state of the program, of the data and of the trials; another one is refused."""
 import argparse
-import concurrent.futures
 import datetime
 import hashlib
 import json
@@ -20,7 +19,7 @@ import shlex
 import sys
 import tempfile
 
-from nonet_program import ROOT, claim, data_files, data_of, fingerprint, output_of
+from nonet_program import ROOT, claim, data_files, data_of, demand, fingerprint, output_of, run_each
 
 TYPES = range(5)
 
@@ -175,19 +174,6 @@ def file_of(out, command):
     return out / (hashlib.sha256(command.encode()).hexdigest()[:16] + ".json")
 
 
-def measure(commands, run, jobs, say):
-    """Runs each of the commands once; after each `say(how many are done)`."""
-    with concurrent.futures.ThreadPoolExecutor(jobs) as workers:
-        waiting = [workers.submit(run, command) for command in commands]
-        try:
-            for count, future in enumerate(concurrent.futures.as_completed(waiting), 1):
-                future.result()
-                say(count)
-        except BaseException:
-            workers.shutdown(wait=False, cancel_futures=True)
-            raise
-
-
 def page(sections_, out, state):
     """Those sections whose answers are all there, as Markdown."""
     parts = [f"`{state['program']}`, {datetime.date.today().strftime('%-d %B %Y')}\n"]
@@ -233,7 +219,7 @@ def self_test():
             else:
                 raise AssertionError("taken")
         done = []
-        measure(["a", "b"], done.append, 2, lambda count: done.append(count))
+        run_each(["a", "b"], done.append, 2, lambda count, _: done.append(count))
         assert sorted(map(str, done)) == ["1", "2", "a", "b"]
         side = {"saved_share": 0.5}
         assert page(few, out, {"program": "x"}).count("##") == 0, "nothing is complete"
@@ -267,8 +253,7 @@ def main():
         return None
     if options.out is None:
         parser.error("--out is missing")
-    if not options.nonet.exists():
-        sys.exit(f"{options.nonet}: not there; build it with scripts/build.sh release nonet")
+    demand(options.nonet)
     program = str(options.nonet.resolve())
     data = options.data or data_of(program)
     state = {"program": output_of([program, "--version"]).strip(),
@@ -279,14 +264,14 @@ def main():
     commands = list(dict.fromkeys(section.command(row) for section in wanted.values() for row in section.rows))
     tables = options.out / "tables.md"
 
-    def say(count):
+    def say(count, _):
         print(f"{count} of {len(commands)}", file=sys.stderr)
         tables.write_text(page(whole, options.out, state))
 
     def run(command):
         return answer_of(program, command, options.data, file_of(options.out, command))
 
-    measure(commands, run, options.jobs, say)
+    run_each(commands, run, options.jobs, say)
     print(tables.read_text())
     return None
 

@@ -1,4 +1,5 @@
 """What the scripts that run `nonet` many times share: where its data is, what decides its answers, what it says."""
+import concurrent.futures
 import hashlib
 import json
 import os
@@ -48,3 +49,21 @@ def output_of(command):
     if done.returncode:
         raise RuntimeError((done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1])
     return done.stdout
+
+
+def demand(program):
+    """Ends with what to do when there is no such program."""
+    if not program.exists():
+        sys.exit(f"{program}: not there; build it with scripts/build.sh release nonet")
+
+
+def run_each(items, run, jobs, done):
+    """`run(item)` for all, so many at a time; after each `done(how many are done, its result)`. A failure ends it."""
+    with concurrent.futures.ThreadPoolExecutor(jobs) as workers:
+        waiting = [workers.submit(run, item) for item in items]
+        try:
+            for count, future in enumerate(concurrent.futures.as_completed(waiting), 1):
+                done(count, future.result())
+        except BaseException:
+            workers.shutdown(wait=False, cancel_futures=True)
+            raise

@@ -15,13 +15,12 @@
 namespace nonet::lab {
 
 struct KickScene {
-  std::string kick;      // name of its skill; empty: motion chooses
-  double start = 0.5;    // m from the ball, facing it
-  double bearing = 0.0;  // rad, from which side the robot comes: 0 = the ball goes straight on
-  double rolling = 0.0;  // m/s, the fastest that the ball rolls at the begin, in any direction
-  double pushed = 0.0;   // m/s, and how fast towards where it should go, as after a push of the dribbler
-  double passed =
-      0.0;  // m/s, how fast a pass comes from that side, to roll out before the robot, which waits
+  std::string kick;        // name of its skill; empty: motion chooses
+  double start = 0.5;      // m from the ball, facing it
+  double bearing = 0.0;    // rad, from which side the robot comes: 0 = the ball goes straight on
+  double rolling = 0.0;    // m/s, the fastest that the ball rolls at the begin, in any direction
+  double pushed = 0.0;     // m/s, and how fast towards where it should go, as after a push of the dribbler
+  double passed = 0.0;     // m/s, how fast a pass comes from that side, to roll out before the waiting robot
   double distance = 10.0;  // m, how far it should go
   bool stops = false;      // and no farther: a pass
   double longest = 10.0;   // s until the contact
