@@ -25,13 +25,15 @@ constexpr double kBackwards = 0.25;
 
 // Out of the walk a kick begins where the step has ended that stands on the kicking foot: the other one
 // becomes the stance. Only out of slow steps: fast ones leave too much to balance. Who has been hit is slow,
-// too, and sees the ball elsewhere under its torso than its feet have it.
-bool stepEnds(const WalkEngine& walk, Side foot, const KickParameters& p) {
+// too, and sees the ball elsewhere under its torso than its feet have it. `away`: speed at which the ball
+// rolls away ahead, m/s.
+bool stepEnds(const WalkEngine& walk, Side foot, double away, const KickParameters& p) {
   const GaitState& gait = walk.gait();
   if (gait.standing || gait.stance != foot || gait.phase < 1.0 - 1e-6) return false;
   if (leansTooFar(walk.measurement().tilt)) return false;
   if (gait.step.translation.x() < p.leastPace * gait.stepDuration) return false;
-  return std::abs(gait.step.translation.y()) < p.asidePace * gait.stepDuration &&
+  return gait.step.translation.x() < (p.closing + std::max(away, 0.0)) * gait.stepDuration &&
+         std::abs(gait.step.translation.y()) < p.asidePace * gait.stepDuration &&
          gait.step.translation.norm() < p.strideSpeed * gait.stepDuration &&
          std::abs(gait.step.rotation) < p.strideTurn * gait.stepDuration;
 }
@@ -172,8 +174,9 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
   comesToStand_ = step.inPlace;
   step.aim = {then.ball, way.turn, walk.speed().translation, (request.target - request.ball).norm()};
-  const bool comes = request.ballVelocity.x() < -p.comes;
-  step.begin = step.inPlace && (head.fromWalk ? !comes && stepEnds(walk, chosen_->foot, p) : quietly);
+  const double away = request.ballVelocity.x();
+  step.begin =
+      step.inPlace && (head.fromWalk ? away >= -p.comes && stepEnds(walk, chosen_->foot, away, p) : quietly);
   step.stand = step.inPlace && !head.fromWalk;
   if (head.isExact()) {
     const bool lies = within(kAbout, way) && (steady_ == 0.0 || steadyFor_ == chosen_);

@@ -239,6 +239,16 @@ TEST(Pass, GoesOnUnderPressure) {
   EXPECT_FALSE(passes(0.7));
 }
 
+TEST(Pass, ComesTooLateOnTheLastStepsToAnotherKick) {
+  Passing scene;
+  motion::KickTo kick = scene.linedUp();
+  kick.stops = false;
+  scene.motion.request = kick;
+  EXPECT_FALSE(pass(scene.situation(Role::OnBall)));
+  scene.parameters.pass.giveUp = 0.1;
+  EXPECT_TRUE(pass(scene.situation(Role::OnBall))) << "while the ball is farther away than that";
+}
+
 // A lane that is just too narrow to begin with.
 TEST(Pass, OneThatIsBeingLinedUpIsNotGivenUpForALittle) {
   Passing scene;

@@ -27,6 +27,7 @@ struct KickParameters {
   double leastPace = -0.02;
   double asidePace = 0.06;
   double comes = 0.15;
+  double closing = 3.0;
   double quietRate = 0.35;
   double quietTime = 0.1;
 
@@ -137,6 +138,13 @@ struct KickParameters {
            fixed,
            "A kick out of the walk begins while the ball comes towards the robot slower than this"},
           self.comes);
+    visit({"closing",
+           Unit::MetrePerSecond,
+           {0, 3},
+           fixed,
+           "A kick out of the walk begins in steps that lead ahead slower than this, or so much faster than "
+           "the ball rolls away: out of others the foot gets under it"},
+          self.closing);
     visit({"quietRate",
            Unit::RadianPerSecond,
            {0, 10},

@@ -17,9 +17,7 @@ constexpr double kLeastSidestep = 0.02;  // m; shorter steps need no set of thei
 
 constexpr double kKeepSet = 1.3;  // the positioning set is kept up to this multiple of its distances
 
-// Likewise the sprint set, up to this multiple of its angle and down to this share of its distance.
-constexpr double kKeepSprint = 1.2;
-constexpr double kKeepSprintNear = 0.4;
+constexpr double kKeepSprint = 1.2;  // likewise the sprint set, up to this multiple of its angle
 
 // Out of a run the robot first slows down, nearly straight ahead, until its step is shorter than the sprint
 // set's stopStep: where the set changed at full steps every tenth stop ended in a fall, and every third turn
@@ -152,7 +150,7 @@ bool WalkControl::sprints(const WalkTo& request) const {
   const Vector2& target = request.target.translation;
   const double angle = wrapAngle(directionOf(target) + engine_.measurement().torsoYaw);
   const bool already = set_ == WalkSet::Sprint;
-  return target.norm() > (already ? kKeepSprintNear : 1.0) * selection_.sprintDistance &&
+  return target.norm() > (already ? selection_.sprintUntil : selection_.sprintDistance) &&
          std::abs(angle) < (already ? kKeepSprint : 1.0) * selection_.sprintAngle;
 }
 

@@ -15,6 +15,8 @@ bool canPass(const Situation& s) {
   if (!world::isOpenPlay(s.phase()) || s.world.ball.v_FB.head<2>().norm() > ball.kickRolling) return false;
   const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
   const bool under = kick != nullptr && kick->stops;
+  // Another kick is not given up on its last steps for a pass that has yet to be lined up.
+  if (kick != nullptr && !under && s.play->ball.norm() < p.giveUp) return false;
   const double share = s.motion.kickInPlace() ? ball.kickPress : under ? p.press : 1.0;
   return s.undisturbed > 0.0 || s.nearestOpponent >= share * p.room;
 }

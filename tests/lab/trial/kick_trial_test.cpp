@@ -37,6 +37,28 @@ TEST(Kicks, ReachABallThatTheRobotHasPushed) {
   EXPECT_LE(fell, 2);
 }
 
+// Out of steps that close on the ball too fast the foot gets under it: a shot that was to be low flies over
+// the bar.
+TEST(Kicks, StayLowOutOfARun) {
+  const agent::AgentSettings agent = agentOfType(2);
+  sim::Settings server;
+  server.quickSolver = true;
+  constexpr int kKicks = 40;
+  constexpr double kBar = 0.8;  // m
+  int over = 0, weak = 0;
+  for (int i = 0; i < kKicks; ++i) {
+    KickScene scene;
+    scene.kick = "kick_quick";
+    scene.start = 5.0;
+    scene.bearing = 0.0;
+    const Kick kick = kickOnce(agent, server, scene, static_cast<std::uint64_t>(i));
+    over += kick.highest > kBar ? 1 : 0;
+    weak += kick.ballSpeed < 4.0 ? 1 : 0;
+  }
+  EXPECT_LE(over, 1);
+  EXPECT_LE(weak, 2);
+}
+
 // As after a short pass: the ball rolls out at the feet of a robot that waits for it. Whoever follows it
 // aside, or kicks while it comes, lets the foot pass it.
 TEST(Kicks, ReachABallThatHasRolledToTheFeet) {

@@ -145,6 +145,7 @@ TEST_F(WalkControlTest, SprintsStraightAheadOnly) {
   WalkSelection chosen = selection();
   chosen.useSprint = true;
   chosen.sprintDistance = 1.0;
+  chosen.sprintUntil = 0.6;
   WalkControl sprinter(model::robotModel(0), WalkSets{}, chosen);
   const auto setOf = [&](const Pose2& target) {
     walk.target = target;
@@ -154,6 +155,9 @@ TEST_F(WalkControlTest, SprintsStraightAheadOnly) {
   EXPECT_EQ(setOf(Pose2(3.0, 0.5, 0.0)), WalkSet::Sprint);
   EXPECT_EQ(setOf(Pose2(3.0, 1.0, 0.0)), WalkSet::GoToTarget);
   EXPECT_EQ(setOf(Pose2(0.9, 0.0, 0.0)), WalkSet::GoToTarget);
+  EXPECT_EQ(setOf(Pose2(1.1, 0.0, 0.0)), WalkSet::Sprint);
+  EXPECT_EQ(setOf(Pose2(0.9, 0.0, 0.0)), WalkSet::Sprint) << "kept";
+  EXPECT_EQ(setOf(Pose2(0.5, 0.0, 0.0)), WalkSet::GoToTarget);
   placeOpponent(0.8);
   EXPECT_EQ(setOf(Pose2(3.0, 0.0, 0.0)), WalkSet::Positioning) << "others come first";
 }

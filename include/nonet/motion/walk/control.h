@@ -44,6 +44,7 @@ struct WalkSelection {
   bool useDribble = false;
   double sprintAngle = 0.2618;
   double sprintDistance = 0.5;
+  double sprintUntil = 0.2;
   double sidestepAngle = 1.0;
   double sidestepTurn = 0.3;
   double positioningDistance = 1.2;
@@ -72,6 +73,9 @@ struct WalkSelection {
         self.sprintAngle);
     visit({"sprintDistance", Unit::Metre, {0.0, 30.0}, fixed, "Sprint: least distance of the target"},
           self.sprintDistance);
+    visit(
+        {"sprintUntil", Unit::Metre, {0.0, 30.0}, fixed, "Sprint: kept until the target is nearer than this"},
+        self.sprintUntil);
     visit({"sidestepAngle",
            Unit::Radian,
            {0.0, 3.2},
