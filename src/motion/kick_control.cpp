@@ -26,11 +26,11 @@ constexpr double kBackwards = 0.25;
 // Out of the walk a kick begins where the step has ended that stands on the kicking foot: the other one
 // becomes the stance. Only out of slow steps: fast ones leave too much to balance. Who has been hit is slow,
 // too, and sees the ball elsewhere under its torso than its feet have it. `away`: speed at which the ball
-// rolls away ahead, m/s.
-bool stepEnds(const WalkEngine& walk, Side foot, double away, const KickParameters& p) {
+// rolls away ahead, m/s; the foot passes one that comes.
+bool mayBeginAtStep(const WalkEngine& walk, Side foot, double away, const KickParameters& p) {
   const GaitState& gait = walk.gait();
   if (gait.standing || gait.stance != foot || gait.phase < 1.0 - 1e-6) return false;
-  if (leansTooFar(walk.measurement().tilt)) return false;
+  if (leansTooFar(walk.measurement().tilt) || away < -p.comes) return false;
   if (gait.step.translation.x() < p.leastPace * gait.stepDuration) return false;
   return gait.step.translation.x() < (p.closing + std::max(away, 0.0)) * gait.stepDuration &&
          std::abs(gait.step.translation.y()) < p.asidePace * gait.stepDuration &&
@@ -174,9 +174,8 @@ KickStep KickControl::stepFor(const KickTo& request, const WalkEngine& walk, dou
   step.inPlace = within(head.fromWalk ? 1.0 : comesToStand_ ? p.stay : walk.standing() ? 1.0 : p.aim, way);
   comesToStand_ = step.inPlace;
   step.aim = {then.ball, way.turn, walk.speed().translation, (request.target - request.ball).norm()};
-  const double away = request.ballVelocity.x();
-  step.begin =
-      step.inPlace && (head.fromWalk ? away >= -p.comes && stepEnds(walk, chosen_->foot, away, p) : quietly);
+  step.begin = step.inPlace &&
+               (head.fromWalk ? mayBeginAtStep(walk, chosen_->foot, request.ballVelocity.x(), p) : quietly);
   step.stand = step.inPlace && !head.fromWalk;
   if (head.isExact()) {
     const bool lies = within(kAbout, way) && (steady_ == 0.0 || steadyFor_ == chosen_);

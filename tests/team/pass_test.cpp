@@ -245,7 +245,7 @@ TEST(Pass, ComesTooLateOnTheLastStepsToAnotherKick) {
   kick.stops = false;
   scene.motion.request = kick;
   EXPECT_FALSE(pass(scene.situation(Role::OnBall)));
-  scene.parameters.pass.giveUp = 0.1;
+  scene.parameters.ball.kickHold = 0.1;
   EXPECT_TRUE(pass(scene.situation(Role::OnBall))) << "while the ball is farther away than that";
 }
 

@@ -25,7 +25,6 @@ struct PassParameters {
   double keep = 0.03;
   double hold = 0.85;
   double press = 1.0;
-  double giveUp = 0.5;
   double same = 1.0;
   double before = 0.3;
   double late = 1.0;
@@ -49,12 +48,6 @@ struct PassParameters {
            fixed,
            "Share of that room (room) that a pass needs while it is lined up"},
           self.press);
-    visit({"giveUp",
-           Unit::Metre,
-           {0, 10},
-           fixed,
-           "Another kick is given up for a pass while the ball is farther away than this"},
-          self.giveUp);
     visit({"fit",
            Unit::None,
            {0, 1},

@@ -117,8 +117,7 @@ bool goesAside(const Situation& s, std::string_view kick) {
 // The robot is on its last steps to a kick, and about that direction is still wanted.
 bool isHeld(const Situation& s) {
   const BallHandlingParameters& p = s.parameters.ball;
-  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
-  if (kick == nullptr || kick->stops || s.play->ball.norm() > p.kickHold) return false;
+  if (!kickUnderWay(s, p.kickHold)) return false;
   const double wanted = directionOf(s.play->p_FTarget - s.ball());
   return std::abs(angleDifference(wanted, *presentKick(s))) < p.kickHoldAngle;
 }
@@ -130,9 +129,7 @@ bool isThere(const Situation& s) {
 
 // Where the ball at the feet is about to be kicked, to be stopped by nobody: rad, own field frame.
 std::optional<double> shotUnderWay(const Situation& s) {
-  const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
-  const bool near = s.play->ball.norm() < s.parameters.shot.keepWithin;
-  return near && kick != nullptr && !kick->stops ? presentKick(s) : std::nullopt;
+  return kickUnderWay(s, s.parameters.shot.keepWithin) ? presentKick(s) : std::nullopt;
 }
 
 }  // namespace

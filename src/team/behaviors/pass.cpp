@@ -16,7 +16,7 @@ bool canPass(const Situation& s) {
   const auto* kick = std::get_if<motion::KickTo>(&s.motion.request);
   const bool under = kick != nullptr && kick->stops;
   // Another kick is not given up on its last steps for a pass that has yet to be lined up.
-  if (kick != nullptr && !under && s.play->ball.norm() < p.giveUp) return false;
+  if (kickUnderWay(s, ball.kickHold)) return false;
   const double share = s.motion.kickInPlace() ? ball.kickPress : under ? p.press : 1.0;
   return s.undisturbed > 0.0 || s.nearestOpponent >= share * p.room;
 }
