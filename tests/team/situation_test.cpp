@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "nonet/math/angle.h"
 #include "nonet/math/direction.h"
 #include "nonet/math/random.h"
 #include "nonet/team/formation.h"
@@ -262,6 +263,29 @@ TEST(Situation, AtTheirGoalKickPlacesAreThoseOfABallThatHasComeDown) {
   const Formation places = scene.situation(Role::Stopper).formation;
   for (std::size_t i = 0; i < places.positions.size(); ++i)
     EXPECT_LT((places.positions[i] - there.positions[i]).norm(), 1e-9) << "role " << i;
+}
+
+// Who runs ahead when it is over need not turn first. At other set pieces all wait for the ball.
+TEST(Situation, AtTheirKickOffAllFaceTheirGoal) {
+  Scene scene;
+  scene.putBall({0.0, 0.0});
+  // Of a robot that has come to the place of its role.
+  const auto headingOf = [&](Role role, world::Phase phase) {
+    scene.world.game.phase = phase;
+    scene.stand(Pose2(-2.0, 0.5, 0.0));
+    for (int i = 0; i < 10; ++i) scene.stand(Pose2(goalOf(scene, scene.decideAs(role)), 1.0));
+    const Action action = scene.decideAs(role);
+    EXPECT_EQ(action.reason.behavior, "opponent set piece");
+    const auto* walk = std::get_if<motion::WalkTo>(&action.motion);
+    EXPECT_NE(walk, nullptr);
+    return wrapAngle(scene.world.self.X_FR.rotation + (walk == nullptr ? 0.0 : walk->target.rotation));
+  };
+  for (const Role role : {Role::ForwardLeft, Role::ForwardRight, Role::Stopper}) {
+    EXPECT_NEAR(headingOf(role, world::Phase::OpponentKickOff), 0.0, 1e-9) << static_cast<int>(role);
+    const double heading = headingOf(role, world::Phase::OpponentFreeKick);
+    const double toBall = directionOf(-scene.world.self.X_FR.translation);
+    EXPECT_NEAR(wrapAngle(heading - toBall), 0.0, 1e-9) << static_cast<int>(role);
+  }
 }
 
 // Before the referee puts the ball a touch does not count, and who is near is pushed away.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "nonet/team/behaviors.h"
 
@@ -33,11 +34,15 @@ std::optional<Action> opponentSetPiece(const Situation& s) {
   const double clear = s.clearOfOpponentKick();
   if (away.norm() < clear) place = ball + clear * (away + Vector2(-kTieBreak, 0.0)).normalized();
   if (s.phase() == world::Phase::OpponentGoalKick) place = outOfTheirArea(s, place);
-  if (s.phase() == world::Phase::OpponentKickOff)
+  std::optional<double> heading;
+  if (s.phase() == world::Phase::OpponentKickOff) {
     place.x() = std::min(place.x(), -s.parameters.setPlay.kickOffLine);
+    // The head alone finds the ball from there, and who then runs ahead need not turn.
+    heading = 0.0;
+  }
   // Who stands on the circle itself may walk along it.
   constexpr double kOnCircle = 0.1;  // m
-  return Action(takePlace(s, place, clear - kOnCircle),
+  return Action(takePlace(s, place, clear - kOnCircle, heading),
                 blocks ? "block the way to the goal" : "place of the role");
 }
 

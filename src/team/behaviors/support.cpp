@@ -21,7 +21,8 @@ bool mayEnterOwnArea(const Situation& s) {
 
 }  // namespace
 
-motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace, double wayToBall) {
+motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace, double wayToBall,
+                                std::optional<double> heading) {
   Caution caution;
   caution.robots = s.parameters.avoidDistance;
   caution.ball = s.parameters.avoidDistance;
@@ -31,7 +32,7 @@ motion::MotionRequest takePlace(const Situation& s, const Vector2& p_FPlace, dou
   const Vector2 place = mayEnterOwnArea(s) ? p_FPlace
                                            : aroundOwnArea(s.world.field, s.world.self.X_FR.translation,
                                                            p_FPlace, s.parameters.formation.areaMargin);
-  const Pose2 pose(place, headingTo(s.world, s.ball()));
+  const Pose2 pose(place, heading.value_or(headingTo(s.world, s.ball())));
   return walkTo(s.world, s.parameters.navigation, pose, caution);
 }
 
