@@ -59,6 +59,26 @@ TEST(Kicks, StayLowOutOfARun) {
   EXPECT_LE(weak, 2);
 }
 
+// After a pass the robot runs after its ball. Where the run begins too far aside it falls in the first steps.
+TEST(Kicks, ArePassesThatTheRobotCanRunAfter) {
+  const agent::AgentSettings agent = agentOfType(2);
+  sim::Settings server;
+  server.quickSolver = true;
+  constexpr int kKicks = 60;
+  int fell = 0, weak = 0;
+  for (int i = 0; i < kKicks; ++i) {
+    KickScene scene;
+    scene.kick = "kick_pass";
+    scene.bearing = kickBearing(i);
+    scene.distance = 5.0;
+    const Kick kick = kickOnce(agent, server, scene, static_cast<std::uint64_t>(i));
+    fell += kick.fell ? 1 : 0;
+    weak += kick.tooShort() ? 1 : 0;
+  }
+  EXPECT_LE(fell, 1);
+  EXPECT_LE(weak, 1);
+}
+
 // As after a short pass: the ball rolls out at the feet of a robot that waits for it. Whoever follows it
 // aside, or kicks while it comes, lets the foot pass it.
 TEST(Kicks, ReachABallThatHasRolledToTheFeet) {
